@@ -194,15 +194,17 @@ export function reportOf(lines: readonly NamedLine[]): Report {
     pixel_side: 0.25,
     scan: '',
     doubt: null,
+    contours: [],
   } as const;
   const vessels = lines.map(({ line, name }) => ({ line, name, length: 10, has_radius: true }));
   return { volume, vessels, windows: null };
 }
 
-const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false };
+const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false, bone_hidden: false };
 
 function vesselOf(id: number): DocumentVessel {
-  return { id, line: id, name: `n${id}`, color: '#ffffff', isHidden: false, clicks: null, doubt: null };
+  const color = '#ffffff';
+  return { id, line: id, name: `n${id}`, color, isHidden: false, clicks: null, doubt: null, contours: [] };
 }
 
 /** A document of vessels with these line numbers; the ids count from 1. */

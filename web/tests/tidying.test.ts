@@ -34,6 +34,7 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   isHidden: false,
   clicks: null,
   doubt,
+  contours: [],
 });
 /** Sure vessels: a trunk with two branches, and two separate vessels, one of them of unknown radius. */
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));

@@ -189,6 +189,8 @@ def _measured(
     found, marked = [], _marked(chosen)
     suggested = {str(n): one.name for n, one in enumerate(suggest_names(tree))}
     session = _session(chosen)
+    if session and session.contours:
+        warn(f"the session has {session.contours} contour(s) by hand, which only the viewer measures")
     # Options that mark a place or state the blur take precedence over the session file.
     marks = session.marks if session and chosen["at"] is None else ()
     marks_of = {str(number): each for number, each in enumerate(marks)}

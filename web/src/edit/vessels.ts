@@ -29,6 +29,24 @@ function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<bo
   });
 }
 
+export const hideBone = (hidden: boolean): Promise<boolean> => isDone(commit({ kind: 'hide_bone', hidden }));
+
+type Contour = DocumentVessel['contours'][number];
+
+/** Draws a contour by hand, in place of an earlier one on its section, whose arc length is its first number. */
+export const drawContour = (id: number, contour: Contour): Promise<boolean> =>
+  setContours('draw a contour', id, contour[0] ?? 0, [contour]);
+
+export const removeContour = (id: number, at: number): Promise<boolean> =>
+  setContours('return to the automatic contour', id, at, []);
+
+function setContours(words: string, id: number, at: number, to: readonly Contour[]): Promise<boolean> {
+  return commitPlain(words, (document) => {
+    const others = vesselOf(document, id)?.contours.filter(([place]) => place !== at) ?? [];
+    return changed(document, id, { contours: [...others, ...to] });
+  });
+}
+
 export const remove = (ids: readonly number[]): Promise<boolean> => isDone(commit({ kind: 'remove', ids }));
 
 export const cut = (id: number, at: number): Promise<boolean> => isDone(commit({ kind: 'cut', id, at }));

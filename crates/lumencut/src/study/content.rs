@@ -16,6 +16,7 @@ use crate::defaults::pixel_side;
 use crate::doubted_scan::doubted_size;
 use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
+use crate::study::bone::WithoutBone;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
 use crate::suggested_names::{SuggestedName, suggested_names};
@@ -62,6 +63,7 @@ pub struct Content {
     pub held: Option<HeldVolume>,
     pub(crate) named: Option<NamedTree>,
     pub(crate) can_reorder: bool,
+    pub(crate) without_bone: WithoutBone,
     windows: OnceLock<Option<Windows>>,
 }
 
@@ -137,7 +139,13 @@ impl Content {
     /// invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         let volume = self.held.as_ref().map(HeldVolume::shared).transpose()?;
-        Ok(Scene { volume, tree: self.tree().cloned() })
+        let context = self.without_bone.shown().map(HeldVolume::shared).transpose()?;
+        Ok(Scene { volume, tree: self.tree().cloned(), context })
+    }
+
+    /// The volume around the vessels, as the context shows it.
+    pub(crate) fn around(&self) -> Option<&HeldVolume> {
+        self.without_bone.shown().or(self.held.as_ref())
     }
 
     /// The tree, if there is one.
