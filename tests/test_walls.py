@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from calibration_scenes import FAT, MUSCLE, Scene
-from lumencut import Flag, Profile, Volume, measure
+from calibration_scenes import FAT, Scene
+from lumencut import Profile, Volume, measure
 from lumencut.errors import SettingsError
 
 
@@ -15,17 +15,6 @@ def of(scene: Scene, **more: object) -> Profile:
 @pytest.fixture(scope="module")
 def coronary() -> Profile:
     return of(Scene(3.0, thickness=0.8))
-
-
-@pytest.mark.parametrize("diameter", [1.5, 2.0, 3.0, 6.0, 12.0])
-def test_an_artery_in_fat_is_measured_without_its_wall(diameter):
-    scene = Scene(diameter, seed=1)
-    told = of(scene)
-    bias = np.mean(told.diameter_equivalent) - diameter
-    # Errors may be 0.1 mm or 3 % for diameters above twice the blur, 0.15 mm for narrower ones.
-    assert abs(bias) < (max(0.1, 0.03 * diameter) if diameter >= 2 * scene.fwhm else 0.15)
-    if 2.0 <= diameter <= 6.0:
-        assert np.mean(of(scene, wall="off").diameter_equivalent) - diameter > 0.35
 
 
 @pytest.mark.parametrize("percent", [50, 70, 90])
@@ -47,34 +36,12 @@ def test_the_wall_is_measured_too(coronary):
     assert (np.isnan(coronary.wall) == np.isnan(coronary.diameter_outer)).all()
 
 
-def test_a_wall_with_fat_on_one_side_and_muscle_on_the_other(coronary):
-    told = of(Scene(4.0, around=(FAT, MUSCLE), seed=2))
-    assert np.mean(told.diameter_equivalent) == pytest.approx(4.0, abs=0.1)
-
-
-def test_walls_as_bright_as_muscle_are_not_told_apart():
-    told = of(Scene(4.0, wall=MUSCLE, around=(MUSCLE,), seed=3))
-    assert told.wall_source == "not separated: the surroundings are as bright"
-    assert np.isnan(told.wall).all()
-    assert np.isnan(told.diameter_outer).all()
-    assert np.mean(told.diameter_equivalent) == pytest.approx(4.0, abs=0.06)
-    # The chance that there is a wall after all is part of the uncertainty.
-    assert (told.uncertainty_parts["wall"] > 0.02).all()
-
-
 def test_the_parts_make_up_the_uncertainty(coronary):
     parts = coronary.uncertainty_parts
     assert list(parts) == ["noise", "point_spread", "wall", "lumen_level", "surroundings"]
     assert np.sqrt(sum(part**2 for part in parts.values())) == pytest.approx(coronary.uncertainty)
     assert (parts["point_spread"] == 0).all()
     assert (parts["wall"] > 0.005).all()
-
-
-def test_an_fwhm_that_is_assumed_is_unsure():
-    scene = Scene(1.4, fwhm=0.6, seed=4)
-    assumed = measure(scene.volume(), scene.vessel())
-    assert assumed.fwhm_source.startswith("assumed")
-    assert (assumed.uncertainty_parts["point_spread"] > 0.01).all()
 
 
 def test_correlated_noise_makes_diameters_less_sure():
@@ -100,14 +67,6 @@ def test_the_source_of_the_wall_is_told(coronary):
     assert np.isnan(told.wall).all()
 
 
-def test_a_wall_given_in_another_unit_is_used():
-    scene = Scene(3.0, seed=7)
-    volume = scene.volume()
-    other = Volume((volume.array.astype(np.float32) + 1000) * 0.5, world_from_index=volume.world_from_index)
-    told = measure(other, scene.vessel(), fwhm=0.9, wall=(522.5, 12.5))
-    assert told.diameter_equivalent == pytest.approx(of(scene).diameter_equivalent, abs=0.01)
-
-
 @pytest.mark.parametrize(
     ("wall", "words"),
     [
@@ -124,19 +83,3 @@ def test_an_absurd_wall_is_refused(wall, words):
     scene = Scene(3.0)
     with pytest.raises(SettingsError, match=words):
         of(scene, wall=wall)
-
-
-def test_beside_calcium_no_wall_is_told():
-    scene = Scene(4.0, seed=8)
-    volume = scene.volume()
-    array = volume.array.copy()
-    k, j, i = np.indices(array.shape)
-    x, y, z = np.moveaxis(
-        np.stack([i, j, k, np.ones_like(i)], axis=-1) @ volume.world_from_index.T[:, :3], -1, 0
-    )
-    array[(np.hypot(x - 2.4, y) < 0.9) & (np.abs(z) < 3)] = 1100
-    told = measure(Volume(array, world_from_index=volume.world_from_index), scene.vessel(), fwhm=0.9)
-    has_calcium = told.flags & Flag.CALCIUM > 0
-    assert has_calcium.sum() > 5
-    assert np.isnan(told.wall[has_calcium]).all()
-    assert np.isfinite(told.wall[~has_calcium]).mean() > 0.8

@@ -79,7 +79,15 @@ export class FakeTracing implements Asked {
       lines: vessels
         .filter(({ line }) => !known.includes(line))
         .map(({ line }) => ({ line, content: this.lines[line] as LineContent })),
-      facts: sure.map(({ line }) => ({ line, length: 10, calibre: null, part: 0, parent: null })),
+      facts: sure.map(({ line }) => ({
+        line,
+        length: 10,
+        calibre: null,
+        part: 0,
+        parent: null,
+        suggested_name: null,
+        is_vein_or_heart: false,
+      })),
       pick: null,
     };
   }

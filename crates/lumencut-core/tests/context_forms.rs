@@ -3,6 +3,7 @@
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
+use lumencut_core::math::light::{AMBIENT, SPECULAR};
 use lumencut_core::settings::{Context, ContextMode, Preset, Window};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_scenes::contexts::{COLOURS, DVR, LOW_WINDOW, MIDA, MIP, Points, apart, coloured, drawn};
@@ -315,5 +316,22 @@ fn presets_follow_the_context_window() {
                 assert!((found - 255.0 * opacity).abs() <= BYTE, "{preset:?} at {place}: {found}");
             }
         }
+    }
+}
+
+#[test]
+fn shading_is_that_of_the_direction_in_which_values_rise_at_the_place() {
+    let size = [16, 12, 12];
+    let value = |n: usize| (100 + 10 * if n % 16 < 8 { n / 16 % 12 } else { n / 192 }) as i16;
+    let voxels: Vec<i16> = (0..size.iter().product()).map(value).collect();
+    let scene = volume(Voxels::I16(&voxels), size, DAffine3::IDENTITY);
+    let camera = Camera::new(DVec3::new(7.5, 0.0, 5.5), DVec3::Y, DVec3::Z, [16, 12], 1.0).unwrap();
+    let context = Context { shading: true, ..coloured(DVR, &[(0.0, [100; 3], 1.0)]) };
+    let pixels = drawn(scene, &camera, context);
+    // A surface that faces the viewer keeps its colour and reflects; one seen edge on keeps the ambient share.
+    let [faces, edge_on] = [f64::from(100.0 + 255.0 * SPECULAR), f64::from(100.0 * AMBIENT)];
+    for row in pixels.chunks(16).skip(2).take(8) {
+        assert!(row[2..6].iter().all(|pixel| (f64::from(pixel[0]) - faces).abs() < 3.0), "{row:?}");
+        assert!(row[10..14].iter().all(|pixel| (f64::from(pixel[0]) - edge_on).abs() < 3.0), "{row:?}");
     }
 }

@@ -237,3 +237,48 @@ fn lesions_of_workloads_match_their_radii() {
         }
     }
 }
+
+/// Length and mean radius (mm) of each vessel, and the mean values of 4 × 4 × 4 parts of the volume.
+fn summary(made: &Phantom) -> Vec<(String, Vec<f64>)> {
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+    let vessels = made.tree.vessels().iter().zip(&made.vessel_names);
+    let mut rows: Vec<(String, Vec<f64>)> = vessels
+        .map(|(vessel, name)| {
+            let length = vessel.arc_length()[vessel.points().len() - 1];
+            (format!("{} {name}", made.name), vec![length, mean(vessel.radius().unwrap())])
+        })
+        .collect();
+    let mut parts = vec![Vec::new(); 64];
+    for (n, value) in made.voxels.iter().enumerate() {
+        let [ni, nj, nk] = made.size;
+        let [i, j, k] = [n % ni * 4 / ni, n / ni % nj * 4 / nj, n / (ni * nj) * 4 / nk];
+        parts[i + 4 * (j + 4 * k)].push(f64::from(*value));
+    }
+    let layers = parts.chunks(16).enumerate();
+    rows.extend(
+        layers.map(|(k, layer)| {
+            (format!("{} {k}", made.name), layer.iter().map(|values| mean(values)).collect())
+        }),
+    );
+    rows
+}
+
+#[test]
+fn workloads_are_those_that_are_stored() {
+    let found: Vec<(String, Vec<f64>)> =
+        WORKLOADS.iter().flat_map(|(make, _)| summary(&make(0, 0.25).unwrap())).collect();
+    let line = |(name, numbers): &(String, Vec<f64>)| {
+        let numbers: Vec<String> = numbers.iter().map(|number| format!("{number:.2}")).collect();
+        format!("{name}: {}", numbers.join(" "))
+    };
+    let text: Vec<String> = found.iter().map(line).collect();
+    let stored = include_str!("workloads.txt").lines().filter(|line| !line.starts_with('#'));
+    let stored: Vec<&str> = stored.collect();
+    let is_near = |(row, stored): (&(String, Vec<f64>), &&str)| {
+        let Some((name, numbers)) = stored.split_once(": ") else { return false };
+        let near = |(number, text): (&f64, &str)| (number - text.parse::<f64>().unwrap()).abs() < 0.02;
+        name == row.0 && row.1.iter().zip(numbers.split(' ')).all(near)
+    };
+    let is_stored = found.len() == stored.len() && found.iter().zip(&stored).all(is_near);
+    assert!(is_stored, "found other workloads than those stored:\n{}", text.join("\n"));
+}

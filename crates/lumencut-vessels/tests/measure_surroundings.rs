@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat2, DVec2, DVec3};
 use lumencut_core::error::Result;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::random::Random;
 use lumencut_vessels::measure::model::ellipse::{Boundary, Ellipse, Whitening};
 use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;
@@ -12,6 +13,8 @@ use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::blur::variance_of;
 use lumencut_vessels::measure::section::flags::{AT_LIMIT, METAL, NEIGHBOR, NO_EDGE};
 use lumencut_vessels::measure::wall::WallRequest;
+
+use crate::scans::noise;
 
 const SIDE: f64 = 0.6;
 const SIZE: [usize; 3] = [40, 40, 44];
@@ -51,16 +54,6 @@ const MUSCLE: Scene = Scene { diameter: 1.8, wall: 0.5, around: 55.0, ..FAT };
 /// Arc lengths of the part with struts (mm).
 const STENT: [f64; 2] = [3.0, 17.0];
 
-/// Noise of standard deviation 1, from the sum of twelve evenly distributed numbers (Knuth's generator).
-fn noise(state: &mut u64) -> f64 {
-    let mut sum = -6.0;
-    for _ in 0..12 {
-        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        sum += (*state >> 11) as f64 / (1_u64 << 53) as f64;
-    }
-    sum
-}
-
 impl Scene {
     fn values(&self) -> Vec<f32> {
         let sides = DVec2::new(SIDE, self.across);
@@ -74,7 +67,7 @@ impl Scene {
         let at = |slice: usize| slice as f64 * SIDE - 3.0;
         let throat = |at: f64| 1.0 - self.narrowed * (-((at - 10.0) / 3.0).powi(4)).exp();
         let lumens: Vec<_> = (0..SIZE[2]).map(|k| within(0.5 * self.diameter * throat(at(k)))).collect();
-        let mut state = 7;
+        let mut random = Random::new(7);
         (0..SIZE.iter().product())
             .map(|n: usize| {
                 let place = DVec2::new((n % SIZE[0]) as f64, (n / SIZE[0] % SIZE[1]) as f64) * sides;
@@ -89,7 +82,7 @@ impl Scene {
                 let strut = self.struts * (-0.5 * away * away / variance).exp();
                 let value = if (STENT[0]..STENT[1]).contains(&at) { value + strut } else { value };
                 let value = if n == 0 { -1000.0 } else { value };
-                (value + NOISE * noise(&mut state)) as f32
+                (value + NOISE * noise(&mut random)) as f32
             })
             .collect()
     }

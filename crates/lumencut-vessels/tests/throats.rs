@@ -4,6 +4,7 @@
 use glam::{DAffine3, DMat2, DVec2, DVec3};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
+use lumencut_scenes::random::Random;
 use lumencut_vessels::measure::model::ellipse::{Boundary, Ellipse, Whitening};
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::measuring::measure;
@@ -12,6 +13,8 @@ use lumencut_vessels::measure::section::blur::variance_of;
 use lumencut_vessels::measure::section::flags::PLAQUE;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 use lumencut_vessels::measure::wall::WallRequest;
+
+use crate::scans::noise;
 
 const SIZE: [usize; 3] = [26, 26, 80];
 const SIDE: f64 = 0.5;
@@ -37,18 +40,6 @@ fn disc(diameter: f64, center: DVec2, place: DVec2) -> f64 {
     let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
     let circle = Ellipse::circle(center, 0.5 * diameter);
     Boundary::new(&circle, Whitening::new(DMat2::from_diagonal(DVec2::splat(variance)))).value(place)
-}
-
-/// Adds noise of `NOISE` HU: sums of twelve pseudo-random numbers (Knuth's constants of MMIX) are nearly normal.
-fn add_noise(values: &mut [f32]) {
-    let mut state = 1_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f64 / f64::from(1 << 24)
-    };
-    for value in values {
-        *value += (NOISE * ((0..12).map(|_| random()).sum::<f64>() - 6.0)) as f32;
-    }
 }
 
 /// Blurs slices of `size` values along z, as the scanner does.
@@ -87,7 +78,8 @@ fn with_plaque(wall: f64, least: f64, lumen_level: impl Fn(f64) -> f64) -> Profi
         }
     }
     let mut values = blurred_along(&values, width * height);
-    add_noise(&mut values);
+    let mut random = Random::new(1);
+    values.iter_mut().for_each(|value| *value += (NOISE * noise(&mut random)) as f32);
     let affine = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), SIZE, [1, width, width * height], affine).unwrap();
     let point = |n: i32| {

@@ -12,6 +12,14 @@ export const recolor = (id: number, color: string): Promise<boolean> => set('col
 export const hide = (id: number, isHidden: boolean): Promise<boolean> =>
   set(isHidden ? 'hide a vessel' : 'show a vessel', id, { isHidden });
 
+/** Hides or shows several vessels in one step. */
+export function hideAll(vessels: readonly DocumentVessel[], isHidden: boolean): Promise<boolean> {
+  const words = isHidden ? 'hide veins and heart' : 'show veins and heart';
+  return commitPlain(words, (document) =>
+    vessels.reduce((before, { id }) => changed(before, id, { isHidden }), document),
+  );
+}
+
 /** Changes fields of a vessel at once, even while the engine is busy. An unchanged value creates no undo step. */
 function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<boolean> {
   return commitPlain(words, (document) => {

@@ -1,6 +1,6 @@
 //! What the open study contains: a volume, a tree, or both.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
 
 use crate::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
@@ -9,6 +9,7 @@ use lumencut_core::named::Named;
 use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_core::volume::Volume;
 use serde::Serialize;
 
 use crate::defaults::pixel_side;
@@ -18,6 +19,7 @@ use crate::scan_details::ScanDetails;
 use crate::study::bone::WithoutBone;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
+use crate::suggested_names::{SuggestedName, suggested_names};
 use crate::value_unit::ValueUnit;
 use crate::windows;
 
@@ -155,6 +157,20 @@ impl Content {
     pub fn scan(&self) -> &ScanDetails {
         static NONE: ScanDetails = ScanDetails::NOTHING;
         self.held.as_ref().map_or(&NONE, |held| &held.scan)
+    }
+
+    /// Suggested names by the numbers of the lines, hidden ones included.
+    pub(crate) fn suggested_names(&self) -> HashMap<usize, SuggestedName> {
+        let Some(named) = &self.named else { return HashMap::new() };
+        let (lines, vessels) = named.measured_among();
+        let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
+        let suggested = suggested_names(&tubes, self.volume().as_ref());
+        lines.iter().copied().zip(suggested).collect()
+    }
+
+    /// The open volume, if it is valid.
+    pub(crate) fn volume(&self) -> Option<Volume<'_>> {
+        self.held.as_ref().and_then(|held| held.volume().ok())
     }
 
     pub(crate) fn hold_lumen(&mut self) -> Result<()> {

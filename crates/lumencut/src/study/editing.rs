@@ -159,7 +159,14 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
                 draft.add(named.line, named.name.clone());
             }
         }
-        _ => {}
+        // `Study::edit` carries these out.
+        Edit::AddBranches { .. }
+        | Edit::AddWholeVessel { .. }
+        | Edit::FindVessels { .. }
+        | Edit::AddMask
+        | Edit::Cut { .. }
+        | Edit::Join { .. }
+        | Edit::AddClickOnLine { .. } => {}
     }
     edit.is_of_clicks()
 }

@@ -334,6 +334,10 @@ export type LineFacts = {
   readonly part: number;
   /** The line from which this line branches; null for the widest line of a part. */
   readonly parent: number | null;
+  /** The name that the rules suggest; null if they are not sure. */
+  readonly suggested_name: string | null;
+  /** Whether the line seems to be a vein or part of the heart. */
+  readonly is_vein_or_heart: boolean;
 };
 
 /** A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number. */
