@@ -171,7 +171,7 @@ export class FakeTracing implements Asked {
     return this.lines[line] as LineContent;
   }
 
-  async show(lines: readonly ListedLine[]): Promise<Report> {
+  async show({ lines }: Message<'show'>): Promise<Report> {
     this.shown.push(lines);
     await this.gate;
     return { ...reportOf(lines.filter(({ hidden }) => !hidden)), windows: this.windows };
