@@ -62,10 +62,11 @@ fn the_outline_of_a_contour_is_its_own_and_survives_being_drawn() {
     let outline = made().outline(2);
     assert!(outline.radii.iter().all(|radius| (radius - 2.0).abs() < 1e-9));
     let pulled = outline.pulled(&made().place(2), DVec3::new(0.0, 3.5, 0.0));
-    let again = Outline { center: pulled.center, ..made().drawn(&[pulled.clone()], 0.5).outline(2) };
+    let again =
+        Outline { center: pulled.center, ..made().drawn(std::slice::from_ref(&pulled), 0.5).outline(2) };
     assert_eq!(again.at, 1.0);
     // The new outline is seen from the new centre, so its points are on the old one.
-    let drawn = made().drawn(&[pulled.clone()], 0.5);
+    let drawn = made().drawn(&[pulled], 0.5);
     let far =
         |point: &DVec3| drawn.contour[2].iter().map(|one| one.distance(*point)).fold(f64::MAX, f64::min);
     assert!(drawn.outline(2).points(&drawn.place(2)).iter().all(|point| far(point) < 0.2));
