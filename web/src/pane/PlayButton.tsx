@@ -11,7 +11,7 @@ export function PlayButton({ kind, disabled = false }: { readonly kind: Cine; re
   return (
     <button
       type="button"
-      class="small"
+      class="small play"
       aria-label={`Play ${kind}`}
       aria-pressed={isPlaying}
       title={`${isPlaying ? 'Pauses' : 'Plays'} ${WORDS[kind]}`}
