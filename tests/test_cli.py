@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction, Window
-from lumencut.cli import main, options
+from lumencut.cli import ALL_COMMANDS, main, options
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
@@ -362,3 +362,7 @@ def test_version():
 def test_help_keeps_its_examples_on_their_own_lines(command, examples):
     lines = CliRunner().invoke(main, [command, "--help"]).output.splitlines()
     assert sum(line.startswith(f"  lumencut {command} ") for line in lines) == examples
+
+
+def test_no_command_takes_the_name_of_another():
+    assert sorted(main.commands) == sorted(command.name for command in ALL_COMMANDS)

@@ -56,6 +56,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "measure::outer",
     ),
     "measure::stenosis": ("measure::section", "measure::uncertainty", "measure::profile"),
+    "measure::comparison": ("measure::section", "measure::profile", "measure::stenosis"),
 }
 
 

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 import lumencut
 from dicom_scenes import LINE, SETTINGS, scan, series, stated, write_series
 from lumencut import FormatError, SettingsError, StudyWarning, Volume
-from lumencut.cli import main
+from lumencut.cli import main, reformation_table
 from lumencut.files.volume_writers import write_volume
 from lumencut.scene.extents import Box
 from lumencut.scene.patients import Patient
@@ -259,6 +259,10 @@ COMMANDS = {
     "uncurl": ("--frames", "2", "-o", "a.dcm"),
     "measure": ("-o", "a.csv", "--dicom", "a", "--step", "2", "--fwhm", "0.9"),
 }
+
+
+def test_every_reformation_is_among_the_commands_here():
+    assert {command.name for command in reformation_table.COMMANDS} <= set(COMMANDS)
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from lumencut.files.centerline_writers import write_centerlines
     from lumencut.files.centerlines import read_centerlines
     from lumencut.files.volumes import SeriesReport, list_series, read_volume
+    from lumencut.measuring.comparison import Change, Comparison, compare_scans
     from lumencut.measuring.flags import Flag
     from lumencut.measuring.measurements import Measurements
     from lumencut.measuring.profile import Profile
@@ -79,6 +80,7 @@ if TYPE_CHECKING:
     from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.tracing.mask_tracing import trace_mask
     from lumencut.tracing.seed_tracing import trace_from
+    from lumencut.tracing.suggested_names import SuggestedName, suggest_names
     from lumencut.tracing.tracer import Tracer, trace
     from lumencut.tracing.vessel_finding import find_vessels
 
@@ -111,6 +113,7 @@ _HOME = {
     "files.centerline_writers": ("write_centerlines",),
     "files.centerlines": ("read_centerlines",),
     "files.volumes": ("SeriesReport", "list_series", "read_volume"),
+    "measuring.comparison": ("Change", "Comparison", "compare_scans"),
     "measuring.flags": ("Flag",),
     "measuring.measurements": ("Measurements",),
     "measuring.profile": ("Profile",),
@@ -149,6 +152,7 @@ _HOME = {
     "tracing.centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "tracing.mask_tracing": ("trace_mask",),
     "tracing.seed_tracing": ("trace_from",),
+    "tracing.suggested_names": ("SuggestedName", "suggest_names"),
     "tracing.tracer": ("Tracer", "trace"),
     "tracing.vessel_finding": ("find_vessels",),
 }
@@ -160,6 +164,8 @@ __all__ = [
     "Camera",
     "CameraError",
     "CenterlineComparison",
+    "Change",
+    "Comparison",
     "CrossSection",
     "Device",
     "DeviceError",
@@ -197,6 +203,7 @@ __all__ = [
     "Stenosis",
     "StraightenedVolume",
     "StudyWarning",
+    "SuggestedName",
     "TangentialReformation",
     "Tracer",
     "TracingError",
@@ -214,6 +221,7 @@ __all__ = [
     "brightest",
     "cfa",
     "compare_centerlines",
+    "compare_scans",
     "cpr",
     "cr",
     "cross_section",
@@ -235,6 +243,7 @@ __all__ = [
     "show",
     "spiral",
     "straightened_volume",
+    "suggest_names",
     "trace",
     "trace_from",
     "trace_mask",

@@ -22,7 +22,12 @@ _WrittenArrays = tuple[
 ]
 _FoundArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
 _FoundParts = tuple[list[_FoundArrays], list[list[int]], list[str]]
-_MeasuredParts = tuple[str, str | None, Profile, Grade | None]
+_MeasuredParts = tuple[str, str | None, str | None, Profile, Grade | None]
+_Pair = tuple[float, float]
+#: Ends of a change, both places, diameters and uncertainties, difference and uncertainty (mm).
+_ChangeParts = tuple[_Pair, _Pair, _Pair, _Pair, _Pair]
+#: Name, named stretches with their ends (mm), and whether the vessel seems to be a vein or the heart.
+_Suggested = tuple[str | None, list[tuple[str, tuple[float, float]]], bool]
 _MarkParts = tuple[str, float, float, bool, str]
 _StoredStenosis = tuple[list[float], list[list[float]], str, tuple[int, bool]]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
@@ -77,6 +82,7 @@ __all__ = [
     "WRITTEN_CENTERLINES",
     "WRITTEN_VOLUMES",
     "CenterlineFile",
+    "Comparison",
     "Cpr",
     "Grade",
     "GzipPacker",
@@ -113,6 +119,8 @@ __all__ = [
     "check_vessel",
     "check_window",
     "coloured",
+    "compare_scans",
+    "comparison_report",
     "contains",
     "context_window",
     "correspondence",
@@ -191,6 +199,8 @@ __all__ = [
     "spun",
     "stored_stenosis",
     "straightened_mark",
+    "suggest_names",
+    "suggested_for",
     "tangential_layout",
     "threads",
     "trace_from",
@@ -524,6 +534,29 @@ class KeptProfiles:
     ) -> Profile: ...
 
 @final
+class Comparison:
+    @property
+    def at(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def diameter(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def uncertainty(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def difference(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def changes(self) -> list[_ChangeParts]: ...
+    @property
+    def typical(self) -> float: ...
+    @property
+    def motion(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def matched(self) -> tuple[str, float]: ...
+    @property
+    def lines(self) -> list[str]: ...
+    def csv(self) -> str: ...
+    def json(self) -> str: ...
+
+@final
 class Profile:
     def numbers(self) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
     def uncertainty_parts(self) -> list[tuple[str, npt.NDArray[np.float64]]]: ...
@@ -735,6 +768,16 @@ def profile_json(profile: Profile) -> str: ...
 def profile_marks(profile: Profile, at: float | None, references: Sequence[float]) -> list[_MarkParts]: ...
 def read_session_file(content: bytes, name: str) -> str: ...
 def part_name(taken: list[str], whole: str) -> str: ...
+def compare_scans(
+    profiles: tuple[Profile, Profile],
+    pairs: Sequence[tuple[float, float]],
+    vessel: str,
+    scans: tuple[str, str],
+    doubts: Sequence[str],
+) -> Comparison: ...
+def comparison_report(vessels: Sequence[Comparison]) -> str: ...
+def suggest_names(vessels: list[_Arrays], volume: Any = None) -> list[_Suggested]: ...
+def suggested_for(name: str, suggested: str) -> str | None: ...
 def parts(lines: list[npt.NDArray[np.float64]]) -> list[list[int]]: ...
 def path(vessels: list[_Arrays], words: list[str]) -> _Arrays: ...
 def radius_at(vessel: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None], at: float) -> float: ...

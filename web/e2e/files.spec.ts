@@ -1,5 +1,6 @@
 /** Tests of opening files: centerlines for an open scan, also if they state no coordinate system. */
 import { expect, test } from '@playwright/test';
+import { serious } from './accessibility';
 import { button, choose, fileOf, rows, SESSION, saved } from './controls';
 import { Viewer } from './page';
 
@@ -73,6 +74,8 @@ test('a scan without voxel spacing has mm only if the user assumes them, and und
   const hair = await viewer.hair('turning');
   await expect(scale).toHaveCount(0);
   await expect(viewer.readOut).not.toContainText('mm');
+  await viewer.page.emulateMedia({ colorScheme: 'light' });
+  expect(await serious(viewer.page, 'light')).toEqual([]);
   await assume.click();
   await expect(scale).toBeVisible();
   await expect(assume).toHaveCount(0);

@@ -19,8 +19,20 @@ const radius = (z: number): number => 4 - 2 * Math.exp(-((z / 6) ** 2));
 /** Value (HU) at a depth in the lumen (mm): 350 inside, -100 outside, with a blurred edge. */
 const lumen = (inside: number): number => -100 + 450 * Math.min(Math.max(0.5 + inside / 1.6, 0), 1);
 
+/** Value (HU) of bone at a place (mm from the centre); null outside. */
+type Bone = (x: number, y: number, z: number) => number | null;
+
+/** A rod as smooth as a vessel. */
+const rod: Bone = (x, y) => (Math.hypot(x, y - BONE) < 4 ? 1100 : null);
+
+/** A block of marrow in a shell, like a vertebra. */
+export const vertebra: Bone = (x, y, z) => {
+  const depth = Math.min(7 - Math.abs(x), 8 - Math.abs(y - BONE + 3), 25 - Math.abs(z));
+  return depth < 0 ? null : depth < 2.5 ? 900 : 150;
+};
+
 /** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. */
-export function tubes(name: string, shift = 0): MadeFile {
+export function tubes(name: string, shift = 0, bone: Bone = rod): MadeFile {
   const [columns, rows, slices] = COUNTS;
   const values = new Int16Array(columns * rows * slices);
   for (let n = 0; n < values.length; n++) {
@@ -28,7 +40,7 @@ export function tubes(name: string, shift = 0): MadeFile {
     const y = (Math.floor(n / columns) % rows) * SIDE - HALF[1];
     const z = Math.floor(n / columns / rows) * SIDE - HALF[2];
     const inside = [radius(z) - Math.hypot(x - NARROWED, y), 3.5 - Math.hypot(x - STRAIGHT, y)];
-    values[n] = Math.hypot(x, y - BONE) < 4 ? 1100 : lumen(Math.max(...inside));
+    values[n] = bone(x, y, z) ?? lumen(Math.max(...inside));
   }
   const axis = (n: number) => `(${[0, 1, 2].map((m) => (m === n ? SIDE : 0)).join()})`;
   const header = [

@@ -1,8 +1,8 @@
 /** Tests of window sizes, high-resolution screens, touch, accessibility and keyboard use. */
-import { AxeBuilder } from '@axe-core/playwright';
-import { type CDPSession, expect, type Page, test } from '@playwright/test';
+import { type CDPSession, expect, test } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
 import { length, subtract } from '../src/core/vectors';
+import { serious } from './accessibility';
 import { isEmpty } from './compare';
 import { Viewer } from './page';
 
@@ -117,14 +117,6 @@ test.describe('touch', () => {
 });
 
 /** Serious faults that axe finds in a theme. In the light one it judges contrast alone, since the rest is the same. */
-const serious = async (page: Page, theme: 'dark' | 'light'): Promise<readonly string[]> => {
-  const axe = new AxeBuilder({ page });
-  const { violations } = await (theme === 'light' ? axe.withRules(['color-contrast']) : axe).analyze();
-  return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
-};
-
 test('axe finds no serious fault at the start, in an open scan and in the help, in both themes', async ({
   browser,
 }) => {
@@ -183,6 +175,9 @@ test('every control is reached by the keyboard, and the toolbar is one row in wi
     const bar = await viewer.page.locator('.toolbar').boundingBox();
     expect(bar?.height, `at ${width}`).toBeLessThan(60);
   }
+  await viewer.page.setViewportSize({ width: 720, height: 450 });
+  const views = await viewer.page.locator('main').boundingBox();
+  expect(views?.height, 'at 200 % zoom').toBeGreaterThan(0.8 * 450);
   viewer.expectNoFault();
   await viewer.close();
 });

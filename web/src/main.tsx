@@ -8,6 +8,7 @@ import { render } from 'preact';
 import { followTool } from './edit/mode';
 import { followPointer, followWhole } from './edit/previews';
 import { followView, restore, stateOf } from './state/address';
+import { followCine } from './state/cine';
 import { start } from './state/device';
 import { followLines } from './state/lines';
 import { showMessage } from './state/message';
@@ -85,4 +86,5 @@ function followEdits(): void {
   followPointer();
   followWhole();
   followTool();
+  followCine();
 }

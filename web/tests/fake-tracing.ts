@@ -79,7 +79,15 @@ export class FakeTracing implements Asked {
       lines: vessels
         .filter(({ line }) => !known.includes(line))
         .map(({ line }) => ({ line, content: this.lines[line] as LineContent })),
-      facts: sure.map(({ line }) => ({ line, length: 10, calibre: null, part: 0, parent: null })),
+      facts: sure.map(({ line }) => ({
+        line,
+        length: 10,
+        calibre: null,
+        part: 0,
+        parent: null,
+        suggested_name: null,
+        is_vein_or_heart: false,
+      })),
       pick: null,
     };
   }
@@ -163,7 +171,7 @@ export class FakeTracing implements Asked {
     return this.lines[line] as LineContent;
   }
 
-  async show(lines: readonly ListedLine[]): Promise<Report> {
+  async show({ lines }: Message<'show'>): Promise<Report> {
     this.shown.push(lines);
     await this.gate;
     return { ...reportOf(lines.filter(({ hidden }) => !hidden)), windows: this.windows };
@@ -186,15 +194,17 @@ export function reportOf(lines: readonly NamedLine[]): Report {
     pixel_side: 0.25,
     scan: '',
     doubt: null,
+    contours: [],
   } as const;
   const vessels = lines.map(({ line, name }) => ({ line, name, length: 10, has_radius: true }));
   return { volume, vessels, windows: null };
 }
 
-const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false };
+const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false, bone_hidden: false };
 
 function vesselOf(id: number): DocumentVessel {
-  return { id, line: id, name: `n${id}`, color: '#ffffff', isHidden: false, clicks: null, doubt: null };
+  const color = '#ffffff';
+  return { id, line: id, name: `n${id}`, color, isHidden: false, clicks: null, doubt: null, contours: [] };
 }
 
 /** A document of vessels with these line numbers; the ids count from 1. */

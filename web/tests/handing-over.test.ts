@@ -21,6 +21,7 @@ const vessel = (id: number, number: number) => ({
   isHidden: false,
   clicks: null,
   doubt: null,
+  contours: [],
 });
 
 test('vessels keep all but their line numbers; vessels whose lines are not loaded are dropped', async () => {

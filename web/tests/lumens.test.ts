@@ -71,6 +71,7 @@ test('the ray of a pixel runs along the view direction through every point seen 
     pixel_side: 0.25,
     scan: '',
     doubt: null,
+    contours: [],
   } as const;
   const projection = ofCamera(CAMERA, volume);
   const from = projection.at([120, 80], [0, 0, 0]);

@@ -262,6 +262,7 @@ describe('the document', () => {
     isHidden: false,
     clicks: null,
     doubt: null,
+    contours: [],
   });
   const before = { ...EMPTY, vessels: [vessel(4, 9), vessel(5, 7)] };
 

@@ -11,6 +11,7 @@ const vessel = (name: string): DocumentVessel => ({
   isHidden: false,
   clicks: null,
   doubt: null,
+  contours: [],
 });
 
 const given = (name: string, ...words: readonly string[]) => ({

@@ -37,8 +37,9 @@ const DOCUMENT: Document = {
         [4, 5, 6],
       ],
       doubt: null,
+      contours: [],
     },
-    { id: 1, line: 7, name: '', color: '#cc6600', isHidden: true, clicks: null, doubt: null },
+    { id: 1, line: 7, name: '', color: '#cc6600', isHidden: true, clicks: null, doubt: null, contours: [] },
     {
       id: 2,
       line: 9,
@@ -47,12 +48,14 @@ const DOCUMENT: Document = {
       isHidden: false,
       clicks: null,
       doubt: 'it leaves sideways',
+      contours: [],
     },
   ],
   stoppers: [{ center: [1, 1, 1], radius: 3 }],
   bridge: true,
   marks: { 1: { ...NO_MARKS, at: 12.5, references: [3, 40], method: 'area', stretch: [1, 9] } },
   rulers: [{ from: [0, 0, 0], to: [3, 4, 0] }],
+  bone_hidden: false,
   isOneMillimetre: false,
 };
 const LOOKED: DisplayState = {

@@ -2,7 +2,7 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked, DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
 import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoubt } from '../src/edit/doubts';
-import { keepPart, removeMarked } from '../src/edit/vessels';
+import { hideAll, keepPart, removeMarked, rename } from '../src/edit/vessels';
 import { EMPTY } from '../src/state/document';
 import { editQueue } from '../src/state/edit-queue';
 import { begin, document_, undo } from '../src/state/history';
@@ -17,9 +17,11 @@ import {
   markNone,
   reachOf,
   shorterThan,
+  suggestedNameOf,
   thinnerThan,
   treeChosen,
   unconnected,
+  veinsAndHeart,
 } from '../src/state/tidying';
 import { chosenDoubt } from '../src/state/tool';
 import { connect } from '../src/worker/engine';
@@ -32,22 +34,31 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   isHidden: false,
   clicks: null,
   doubt,
+  contours: [],
 });
 /** Sure vessels: a trunk with two branches, and two separate vessels, one of them of unknown radius. */
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
 const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
+const PLAIN = {
+  length: 1,
+  calibre: null,
+  part: 0,
+  parent: null,
+  suggested_name: null,
+  is_vein_or_heart: false,
+};
 const FACTS: readonly LineFacts[] = [
-  { line: 11, length: 100, calibre: 20, part: 0, parent: null },
-  { line: 12, length: 30, calibre: 6, part: 0, parent: 13 },
-  { line: 13, length: 9, calibre: 1.5, part: 0, parent: 11 },
-  { line: 14, length: 40, calibre: 1.9, part: 1, parent: null },
-  { line: 15, length: 5, calibre: null, part: 2, parent: 11 },
+  { ...PLAIN, line: 11, length: 100, calibre: 20, suggested_name: 'Aorta' },
+  { ...PLAIN, line: 12, length: 30, calibre: 6, parent: 13 },
+  { ...PLAIN, line: 13, length: 9, calibre: 1.5, parent: 11 },
+  { ...PLAIN, line: 14, length: 40, calibre: 1.9, part: 1, is_vein_or_heart: true },
+  { ...PLAIN, line: 15, length: 5, part: 2, parent: 11, is_vein_or_heart: true },
 ];
 
 const factsAmong = (vessels: readonly DocumentVessel[]): readonly LineFacts[] => {
   const told = new Map(FACTS.map((one) => [one.line, one]));
   const sure = vessels.filter(({ doubt }) => doubt === null);
-  return sure.map(({ line }) => told.get(line) ?? { line, length: 1, calibre: null, part: 9, parent: null });
+  return sure.map(({ line }) => told.get(line) ?? { ...PLAIN, line, part: 9 });
 };
 
 const asked: string[] = [];
@@ -107,18 +118,21 @@ afterEach(() => {
 test('short and thin vessels are marked while the limits change, and are removed in one step', async () => {
   expect(marked.value.size).toBe(0);
   shorterThan.value = 10;
-  expect([...marked.value]).toEqual([3, 5]);
+  expect([...marked.value], 'vessel 3 is short, but connects vessel 2 to the trunk').toEqual([5]);
+  shorterThan.value = 35;
+  expect([...marked.value], 'both are short').toEqual([2, 3, 5]);
+  shorterThan.value = 5;
   thinnerThan.value = 2;
-  expect([...marked.value]).toEqual([3, 4, 5]);
-  shorterThan.value = 9;
   expect([...marked.value], 'a limit itself is long enough; a radius that is not known is not thin').toEqual([
-    3, 4, 5,
+    4,
   ]);
+  shorterThan.value = 10;
   thinnerThan.value = 0;
   expect([...marked.value]).toEqual([5]);
   thinnerThan.value = 2;
+  expect([...marked.value]).toEqual([4, 5]);
   expect(await removeMarked()).toBe(true);
-  expect(ids()).toEqual([1, 2, 6, 7, 8]);
+  expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
   expect([shorterThan.value, thinnerThan.value]).toEqual([0, 0]);
   undo();
   expect(ids()).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
@@ -201,4 +215,28 @@ test('after each answer the next doubtful branch is shown, after the last one no
   );
   await answerDoubt('accept');
   expect(ids()).toEqual([1, 2, 3, 4, 5, 7]);
+});
+
+test('a suggested name names nothing until the user takes it', async () => {
+  const first = () => document_.value.vessels[0] as DocumentVessel;
+  expect(suggestedNameOf(first())).toBe('Aorta');
+  expect(first().name).toBe('');
+  await rename(1, 'Vessel 1');
+  expect(suggestedNameOf(first()), 'a number is no name').toBe('Aorta');
+  await rename(1, 'graft');
+  expect(suggestedNameOf(first()), 'a name that the user gave').toBe(null);
+});
+
+test('veins and heart are hidden and shown in one step each, except those that the user named', async () => {
+  const hidden = () => document_.value.vessels.filter((one) => one.isHidden).map((one) => one.id);
+  expect(veinsAndHeart.value.map((one) => one.id)).toEqual([4, 5]);
+  await hideAll(veinsAndHeart.value, true);
+  expect(hidden()).toEqual([4, 5]);
+  undo();
+  expect(hidden()).toEqual([]);
+  await hideAll(veinsAndHeart.value, true);
+  await hideAll(veinsAndHeart.value, false);
+  expect(hidden()).toEqual([]);
+  await rename(4, 'Azygos');
+  expect(veinsAndHeart.value.map((one) => one.id)).toEqual([5]);
 });

@@ -12,6 +12,7 @@ const VESSEL: DocumentVessel = {
   isHidden: false,
   clicks: null,
   doubt: null,
+  contours: [],
 };
 const TOLD: Told = { vessel: 3, words: 'Vessel 1, 80.0 mm.', doubts: [{ words: 'Doubtful.', at: 40 }] };
 const document = (vessel: DocumentVessel) => ({ ...EMPTY, vessels: [vessel] });

@@ -63,7 +63,7 @@ describe.skipIf(every.length === 0)('as Python', () => {
   test.each(every)('traces $phantom', async ({ phantom, clicks, lines, files }) => {
     const { engine } = await opened(phantom);
     // All vessels but the last are given; the last one is begun, and all are traced in one edit.
-    const vessel = { line: 0, name: '', color: '', isHidden: false, doubt: null };
+    const vessel = { line: 0, name: '', color: '', isHidden: false, doubt: null, contours: [] };
     const vessels = clicks.slice(0, -1).map((own, n) => ({ ...vessel, id: n + 1, clicks: own }));
     const begin = { kind: 'begin_vessel', clicks: clicks.at(-1) ?? [] } as const;
     const traced = await edited(engine, begin, { ...EMPTY, vessels });

@@ -132,7 +132,7 @@ impl CpuRenderer {
             None => Frame::of(Geometry::rays(*request.camera)),
         };
         match &scene.volume {
-            Some(volume) => self.show(volume, frame, request),
+            Some(volume) => self.show([volume, scene.context.as_ref().unwrap_or(volume)], frame, request),
             None if scene.tree.is_some() => Ok(frame.keeping(request.images)),
             None => Err(nothing_to_show()),
         }
@@ -176,15 +176,17 @@ impl CpuRenderer {
     /// the request only settings, images and stop apply. Fails as [`CpuRenderer::render`].
     pub fn look(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
         request.settings.check()?;
-        self.show(volume, frame, request)
+        self.show([volume; 2], frame, request)
     }
 
-    fn show(&self, volume: &SharedVolume, frame: Frame, request: &Request) -> Result<Frame> {
+    /// Shows the first volume on the surface, and the second one around it.
+    fn show(&self, [volume, around]: [&SharedVolume; 2], frame: Frame, request: &Request) -> Result<Frame> {
         let &Request { settings, stop, progress, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress };
         let (mut clock, mut images) = (Clock::start(), Images::default());
         let Frame { geometry, vessel, leap, focus, .. } = &frame;
-        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus, wanted: request.images };
+        let wanted = request.images;
+        let pass = LookPass { work, volume, around, settings, geometry, vessel, leap, focus, wanted };
         for stage in Stage::of_look(settings, &frame.geometry, frame.images(), request.images) {
             request.begin_stage(stage);
             pass.run(stage, &mut images)?;

@@ -20,6 +20,8 @@ pub struct Scene<'a> {
     pub volume: Option<SharedVolume<'a>>,
     /// The tree; without it only the context of the volume can be shown.
     pub tree: Option<Arc<LeveledTree>>,
+    /// What the context shows instead of the volume, on the same grid and of the same type, such as the volume without bone.
+    pub context: Option<SharedVolume<'a>>,
 }
 
 impl<'a> Scene<'a> {
@@ -32,6 +34,11 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub fn with_volume(self, volume: Volume<'a>) -> Self {
         Self { volume: Some(SharedVolume::new(volume, VolumeKey::default())), ..self }
+    }
+
+    /// The volume that the context shows.
+    pub fn shown_around(&self) -> Option<&SharedVolume<'a>> {
+        self.context.as_ref().or(self.volume.as_ref())
     }
 
     /// Replaces the tree; data computed from the volume are kept.

@@ -38,6 +38,8 @@ pub(crate) struct Pass<'a> {
     pub scene: &'a Scene<'a>,
     pub levels: Option<&'a DeviceLevels>,
     pub volume: Option<&'a DeviceVolume>,
+    /// The volume that the context shows.
+    pub around: Option<&'a DeviceVolume>,
     /// The positions of the pixels; if the GPU made the cut surface, its depth is among the images instead.
     pub geometry: Geometry,
     pub request: &'a Request<'a>,
@@ -182,7 +184,7 @@ impl<'a> Pass<'a> {
     fn context(&mut self) -> Result<()> {
         let settings = self.request.settings;
         let (Some(on_device), Some(shared), Some(context)) =
-            (self.volume, &self.scene.volume, &settings.context)
+            (self.around, self.scene.shown_around(), &settings.context)
         else {
             return Ok(());
         };

@@ -45,7 +45,9 @@ impl Pass<'_> {
     }
 
     fn show(&self, stage: Stage, images: &mut Images) -> Result<()> {
-        let Some(volume) = &self.scene.volume else { return Ok(()) };
+        let (Some(volume), Some(around)) = (&self.scene.volume, self.scene.shown_around()) else {
+            return Ok(());
+        };
         let geometry = match &self.geometry {
             Geometry::Orthographic { camera, .. } => {
                 Geometry::Orthographic { camera: *camera, depth: std::mem::take(&mut images.depth) }
@@ -58,7 +60,7 @@ impl Pass<'_> {
         let leap = std::mem::take(&mut images.leap);
         let focus = std::mem::take(&mut images.focus);
         let (geometry, vessel, leap, focus) = (&geometry, &vessel, &leap, &focus);
-        let pass = LookPass { work, volume, settings, geometry, vessel, leap, focus, wanted };
+        let pass = LookPass { work, volume, around, settings, geometry, vessel, leap, focus, wanted };
         pass.run(stage, images)?;
         if stage == Stage::Context && images.gathered.is_empty() {
             images.gathered = vec![[0.0; 4]; self.images.pixels()];

@@ -9,6 +9,7 @@ use lumencut_core::math::projection::Level;
 use lumencut_core::pipeline::{Request, nothing_to_show};
 use lumencut_core::scene::{Scene, SharedVolume, WeakVolumeKey};
 use lumencut_core::stages::ImageSet;
+use lumencut_core::stop::Stop;
 
 use crate::device::Device;
 use crate::images::Images;
@@ -33,6 +34,8 @@ pub struct GpuRenderer {
     on_cpu: OnCpu,
     tree: Option<DeviceTree>,
     volume: Option<ShownVolume>,
+    /// The volume that the context shows, if it is another one.
+    around: Option<ShownVolume>,
     images: Option<Images>,
 }
 
@@ -48,6 +51,18 @@ struct ShownVolume {
     on_device: DeviceVolume,
 }
 
+impl ShownVolume {
+    fn replace(kept: &mut Option<Self>, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<()> {
+        if kept.as_ref().is_none_or(|kept| !kept.key.is(&shared.key)) {
+            // The old volume is freed first, as there may not be enough memory for two.
+            *kept = None;
+            let on_device = DeviceVolume::new(device, &shared.volume, stop)?;
+            *kept = Some(Self { key: shared.key.downgrade(), on_device });
+        }
+        Ok(())
+    }
+}
+
 impl GpuRenderer {
     /// A renderer on this GPU.
     pub fn new(device: Arc<Device>) -> Self {
@@ -58,6 +73,7 @@ impl GpuRenderer {
             on_cpu: OnCpu::default(),
             tree: None,
             volume: None,
+            around: None,
             images: None,
         }
     }
@@ -138,7 +154,7 @@ impl GpuRenderer {
         request: &Request<'_>,
     ) -> Result<Frame> {
         request.settings.check()?;
-        let scene = Scene { volume: Some(volume.clone()), tree: None };
+        let scene = Scene { volume: Some(volume.clone()), ..Scene::default() };
         let Frame { geometry, vessel, leap, focus, distance, folded, timings, .. } = frame;
         let mut pass = self.pass(&scene, geometry, request)?;
         pass.send_surface(&vessel, &leap, &focus);
@@ -163,6 +179,8 @@ impl GpuRenderer {
         };
         let levels = self.tree.as_ref().map(|tree| &tree.on_device);
         let volume = self.volume.as_ref().map(|volume| &volume.on_device);
+        let around = self.around.as_ref().filter(|_| scene.context.is_some());
+        let around = around.map(|around| &around.on_device).or(volume);
         self.device.write(&self.stages.view, &[ViewParameters::of(&geometry)]);
         Ok(Pass {
             device: &self.device,
@@ -173,6 +191,7 @@ impl GpuRenderer {
             scene,
             levels: levels.filter(|_| scene.tree.is_some()),
             volume: volume.filter(|_| scene.volume.is_some()),
+            around: around.filter(|_| scene.volume.is_some()),
             geometry,
             request,
             recording: Recording::new(&self.device),
@@ -182,13 +201,11 @@ impl GpuRenderer {
     }
 
     fn prepare(&mut self, scene: &Scene, request: &Request) -> Result<()> {
-        if let Some(shared) = &scene.volume
-            && self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key))
-        {
-            // The old volume is freed first, as there may not be enough memory for two.
-            self.volume = None;
-            let on_device = DeviceVolume::new(&self.device, &shared.volume, request.stop)?;
-            self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });
+        if let Some(shared) = &scene.volume {
+            ShownVolume::replace(&mut self.volume, &self.device, shared, request.stop)?;
+        }
+        if let Some(shared) = &scene.context {
+            ShownVolume::replace(&mut self.around, &self.device, shared, request.stop)?;
         }
         if let Some(tree) = &scene.tree {
             let settings = request.settings;

@@ -19,7 +19,8 @@ use crate::write::mrk_json::markups;
 /// Name of the field that is added to the markups file.
 pub const FIELD: &str = "LumencutSession";
 
-/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, and noted diameters. Files use
+/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, hidden bone, contours and noted
+/// diameters. Files use
 /// the lowest sufficient version, so that older programs reject only files that they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
@@ -70,13 +71,19 @@ pub struct Session {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(feature = "types", ts(as = "Option<bool>", optional))]
     pub one_millimetre_assumed: bool,
+    /// Whether the context hides bone; exists since version 2.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "types", ts(as = "Option<bool>", optional))]
+    pub bone_hidden: bool,
 }
 
 impl Session {
     fn least_format(&self) -> u32 {
         let has_diameters = |marks: &Marks| !(marks.diameters_mm.is_empty() && marks.confirmed_mm.is_empty());
         let marks = self.vessels.iter().filter_map(|vessel| vessel.marks.as_ref());
-        FORMATS[usize::from(self.one_millimetre_assumed || marks.into_iter().any(has_diameters))]
+        let has_contours = self.vessels.iter().any(|vessel| !vessel.contours_mm.is_empty());
+        let has_more = self.one_millimetre_assumed || self.bone_hidden || has_contours;
+        FORMATS[usize::from(has_more || marks.into_iter().any(has_diameters))]
     }
 
     /// The session as JSON.
@@ -117,6 +124,11 @@ pub struct VesselState {
     pub bridged: Option<Vec<bool>>,
     /// Marks that the reader set, if any.
     pub marks: Option<Marks>,
+    /// Contours that the reader drew: arc length, centre (to the right and down in the section), and distances from the centre at
+    /// equal angles; exist since version 2.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "types", ts(as = "Option<Vec<Vec<f64>>>", optional))]
+    pub contours_mm: Vec<Vec<f64>>,
 }
 
 /// Marks that the reader set on a vessel; arc lengths and diameters are in mm.
@@ -302,7 +314,14 @@ fn check_format(version: Option<f64>) -> Result<()> {
 
 fn check(lines: &[Line], session: &Session) -> Result<()> {
     if session.format < session.least_format() {
-        let what = if session.one_millimetre_assumed { "an assumed millimetre" } else { "noted diameters" };
+        let what = match session {
+            Session { one_millimetre_assumed: true, .. } => "an assumed millimetre",
+            Session { bone_hidden: true, .. } => "hidden bone",
+            Session { vessels, .. } if vessels.iter().any(|vessel| !vessel.contours_mm.is_empty()) => {
+                "contours"
+            }
+            _ => "noted diameters",
+        };
         let found = format!("{what} in version {}", session.format);
         return Err(Error::new(FIELD, found, format!("version {}", session.least_format())));
     }

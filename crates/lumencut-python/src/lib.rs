@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod centerlines;
 mod chart;
+mod comparing;
 mod cpr;
 mod defaults;
 mod device;
@@ -32,6 +33,7 @@ mod renderer;
 mod report;
 mod settings;
 mod spiral;
+mod suggested_names;
 mod tracing;
 mod tree;
 mod tree_findings;
@@ -140,6 +142,11 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::smoothed, module)?)?;
     module.add_function(wrap_pyfunction!(tree::path, module)?)?;
     module.add_function(wrap_pyfunction!(tree::parts, module)?)?;
+    module.add_class::<comparing::Comparison>()?;
+    module.add_function(wrap_pyfunction!(comparing::compare_scans, module)?)?;
+    module.add_function(wrap_pyfunction!(comparing::comparison_report, module)?)?;
+    module.add_function(wrap_pyfunction!(suggested_names::suggest_names, module)?)?;
+    module.add_function(wrap_pyfunction!(suggested_names::suggested_for, module)?)?;
     module.add_function(wrap_pyfunction!(views::about, module)?)?;
     module.add_function(wrap_pyfunction!(views::radius_at, module)?)?;
     module.add_function(wrap_pyfunction!(views::cut_diameter, module)?)?;

@@ -46,12 +46,14 @@ impl From<Options> for Asked {
     }
 }
 
-pub(crate) type MeasuredParts = (String, Option<String>, Py<Profile>, Option<Py<Grade>>);
+/// Id, name, suggested name, profile and grade of a vessel.
+pub(crate) type MeasuredParts = (String, Option<String>, Option<String>, Py<Profile>, Option<Py<Grade>>);
 
-pub(crate) fn row((id, name, profile, grade): &MeasuredParts) -> Measured<'_> {
+pub(crate) fn row((id, name, suggested, profile, grade): &MeasuredParts) -> Measured<'_> {
     Measured {
         id: id.clone(),
         name: name.clone(),
+        suggested_name: suggested.clone(),
         profile: &profile.get().0,
         scan: &profile.get().1,
         grade: grade.as_ref().map(|grade| &grade.get().0),

@@ -103,7 +103,7 @@ impl Renderer {
         method: MethodArgument,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let (camera, Checked(settings), method) = (camera.camera()?, settings.get(), method.method()?);
-        let scene = Scene { volume: None, tree: self.tree.clone() };
+        let scene = Scene { tree: self.tree.clone(), ..Scene::default() };
         let strength = interruptible(py, None, |stop| {
             let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap]));
             let request = Request { images, stop, ..Request::new(&camera, settings) };
@@ -142,7 +142,7 @@ impl Renderer {
             }
             _ => None,
         };
-        let scene = Scene { volume, tree: self.tree.clone() };
+        let scene = Scene { volume, tree: self.tree.clone(), context: None };
         let progress = Progress::default();
         let reporter = callback.as_ref().map(|callback| Reporter { progress: &progress, callback });
         let (frame, given_up) = interruptible(py, reporter.as_ref(), |stop| {
@@ -264,7 +264,8 @@ impl MethodArgument {
 
 impl Renderer {
     pub fn scene<'a>(&self, volume: Volume<'a>) -> Scene<'a> {
-        Scene { volume: Some(SharedVolume::new(volume, self.volume.clone())), tree: self.tree.clone() }
+        let volume = Some(SharedVolume::new(volume, self.volume.clone()));
+        Scene { volume, tree: self.tree.clone(), context: None }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
 use lumencut_vessels::measure::section::flags::{
-    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED,
+    AT_LIMIT, BRANCH, BY_HAND, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED,
     RESTLESS_LINE,
 };
 use serde::Serialize;
@@ -36,7 +36,7 @@ const fn look(
 }
 
 /// All flags, in the order of plots and tables.
-pub const FLAGS: [FlagLook; 11] = [
+pub const FLAGS: [FlagLook; 12] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
         [
@@ -94,6 +94,7 @@ pub const FLAGS: [FlagLook; 11] = [
         ["bright plaque", "plaque beside the lumen is nearly as bright as it: the lumen may be narrower"],
         ["#a0522d", "#d98a5f"],
     ),
+    look(("BY_HAND", BY_HAND), ["by hand", "the reader drew the contour"], ["#00708a", "#6fd3ff"]),
 ];
 
 pub(crate) fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {

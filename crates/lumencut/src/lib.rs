@@ -7,6 +7,7 @@ pub mod axes_words;
 pub mod backend;
 mod choice;
 pub mod clicked_vessel;
+pub mod comparison;
 pub mod cut_at;
 pub mod cut_diameter;
 pub mod defaults;
@@ -55,6 +56,7 @@ pub mod scan_details;
 pub mod spiral_lengths;
 pub mod straightened_sides;
 pub mod study;
+pub mod suggested_names;
 mod text;
 #[cfg(test)]
 #[path = "tests/tube.rs"]

@@ -9,7 +9,7 @@ use lumencut_core::math::same_place::VESSEL_END;
 /// Indices of connected lines in ascending order, the longest group first. An end matches points within [`VESSEL_END`].
 pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     let mut heads: Vec<usize> = (0..lines.len()).collect();
-    touching(lines, |number, owner| join(&mut heads, number, owner));
+    touching(lines, |number, _, owner| join(&mut heads, number, owner));
     let mut parts: HashMap<usize, Vec<usize>> = HashMap::new();
     for number in 0..lines.len() {
         parts.entry(head(&mut heads, number)).or_default().push(number);
@@ -26,7 +26,7 @@ pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
 /// counts as narrowest.
 pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
     let mut neighbors = vec![Vec::new(); lines.len()];
-    touching(lines, |number, owner| {
+    touching(lines, |number, _, owner| {
         neighbors[number].push(owner);
         neighbors[owner].push(number);
     });
@@ -50,14 +50,14 @@ pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<
     parents
 }
 
-/// Calls `visit(a, b)` for each end of line b that is a point of line a.
-fn touching(lines: &[&[DVec3]], mut visit: impl FnMut(usize, usize)) {
+/// Calls `visit(a, n, b)` for each end of line b that is point n of line a.
+pub(crate) fn touching(lines: &[&[DVec3]], mut visit: impl FnMut(usize, usize, usize)) {
     let ends = ends(lines);
     for (number, line) in lines.iter().enumerate() {
-        for point in *line {
+        for (place, point) in line.iter().enumerate() {
             for (end, owner) in ends.get(&cell(*point)).into_iter().flatten() {
                 if end.distance_squared(*point) <= VESSEL_END * VESSEL_END {
-                    visit(number, *owner);
+                    visit(number, place, *owner);
                 }
             }
         }

@@ -54,7 +54,8 @@ pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
     document(&Vessels { settings: asked, vessels: vessels.iter().map(VesselRecord::of).collect() })
 }
 
-fn document<T: Serialize>(content: &T) -> String {
+/// A JSON document with the version of the software and the notice.
+pub(crate) fn document<T: Serialize>(content: &T) -> String {
     #[derive(Serialize)]
     struct Document<'a, T> {
         software: String,
@@ -77,6 +78,8 @@ fn document<T: Serialize>(content: &T) -> String {
 struct VesselRecord {
     id: String,
     name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    suggested_name: Option<String>,
     #[serde(flatten)]
     profile: ProgramProfile,
     stenosis: Option<StenosisRecord>,
@@ -90,6 +93,7 @@ impl VesselRecord {
         Self {
             id: one.id.clone(),
             name: one.name.clone(),
+            suggested_name: one.suggested_name.clone(),
             profile: ProgramProfile::of(one.profile, one.scan),
             stenosis: one.grade.and_then(StenosisRecord::of),
             not_graded: one.grade.and_then(Grade::not_graded).map(str::to_owned),

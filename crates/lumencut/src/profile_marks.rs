@@ -163,6 +163,8 @@ pub struct Measured<'a> {
     pub id: String,
     /// Name of the vessel, if it has one.
     pub name: Option<String>,
+    /// A name for a reader to confirm, if the vessel has none or only a number.
+    pub suggested_name: Option<String>,
     /// The profile of the vessel.
     pub profile: &'a Profile,
     /// How the scan was made.

@@ -2,6 +2,7 @@
 //! caller passes its name. The caller supplies the pictures.
 
 pub mod chart;
+pub mod comparison;
 pub(crate) mod curves;
 mod findings;
 pub mod frame;
@@ -140,7 +141,9 @@ fn head(shown: &Shown, vessel: &VesselPage) -> String {
     let scan = shown.scan.as_ref().map(|scan| format!("{scan} – ")).unwrap_or_default();
     let saved = shown.saved.as_ref().map(|words| paragraph("", &format!("Saved on {words}")));
     let head = format!("<h1>{}, {length}</h1>\n", escaped(&format!("{scan}{name}")));
-    head + &saved.unwrap_or_default() + &paragraph("notice", NOTICE)
+    let suggested = vessel.measured.suggested_name.as_ref();
+    let suggested = suggested.map(|name| paragraph("", &format!("Suggested name, not confirmed: {name}?")));
+    head + &suggested.unwrap_or_default() + &saved.unwrap_or_default() + &paragraph("notice", NOTICE)
 }
 
 fn top(shown: &Shown, vessel: &VesselPage) -> Result<String> {

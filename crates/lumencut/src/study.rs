@@ -4,9 +4,11 @@
 
 mod after_edit;
 pub mod asking;
+mod bone;
 pub mod brightest;
 mod centerline_files;
 mod content;
+mod contours;
 mod document;
 mod doubts;
 mod draft;

@@ -56,8 +56,8 @@ impl NamedVessel {
     pub fn offered(&self) -> Vec<String> {
         match (self.is_offered, self.is_paired) {
             (false, _) => Vec::new(),
-            (true, false) => vec![capitalised(self.name)],
-            (true, true) => Side::ALL.map(|side| format!("{} {}", side.code().1, self.name)).to_vec(),
+            (true, false) => vec![offered_name(self.name, None)],
+            (true, true) => Side::ALL.map(|side| offered_name(self.name, Some(side))).to_vec(),
         }
     }
 
@@ -66,8 +66,12 @@ impl NamedVessel {
     }
 }
 
-fn capitalised(name: &str) -> String {
-    name[..1].to_uppercase() + &name[1..]
+/// A name of the table as it is offered to users.
+pub(crate) fn offered_name(name: &str, side: Option<Side>) -> String {
+    match side {
+        Some(side) => format!("{} {name}", side.code().1),
+        None => name[..1].to_uppercase() + &name[1..],
+    }
 }
 
 /// The vessel that a name means, and its side. Only complete names match, such as `left renal artery`, `ICA R` or `LAD 2`.

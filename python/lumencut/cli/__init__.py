@@ -12,6 +12,7 @@ import click
 from lumencut.cli.batch import batch
 from lumencut.cli.bids import bids
 from lumencut.cli.compare_methods import compare_methods
+from lumencut.cli.compare_scans import compare_scans
 from lumencut.cli.demo import demo
 from lumencut.cli.doctor import doctor
 from lumencut.cli.evaluate import evaluate
@@ -67,7 +68,7 @@ def main(ctx: click.Context) -> None:
         say(first_words())
 
 
-for _command in (
+ALL_COMMANDS = (
     view,
     render,
     turntable,
@@ -79,6 +80,7 @@ for _command in (
     info,
     trace,
     measure,
+    compare_scans,
     batch,
     summarize,
     bids,
@@ -87,5 +89,6 @@ for _command in (
     settings,
     doctor,
     demo,
-):
+)
+for _command in ALL_COMMANDS:
     main.add_command(_command)

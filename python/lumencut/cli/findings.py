@@ -94,6 +94,7 @@ def of_centerlines(
         "length_mm": round(sum(lengths), 3),
         "vessel_lengths_mm": [round(length, 3) for length in lengths],
         "vessel_names": [vessel.name for vessel in tree] if any(vessel.name for vessel in tree) else None,
+        "suggested_names": _suggested(tree),
         "radius_mm": [min(known), max(known)] if known else None,
         "junctions": sum(degree > 2 for degree in degrees),
         "loose_ends": sum(degree == 1 for degree in degrees),
@@ -106,6 +107,15 @@ def of_centerlines(
         "notes": [*place.undecided, *_doubts(report.doubt), *map(one_line, report.notes), *_odd_tree(tree)],
         "_tree": tree,
     }
+
+
+def _suggested(tree: VesselTree) -> list[dict[str, Any]]:
+    """Return names for a reader to confirm, of vessels without one."""
+    from lumencut.tracing.suggested_names import suggest_names
+
+    suggested = enumerate(suggest_names(tree))
+    nameless = ((n, one.name) for n, one in suggested if one.name is not None and tree[n].name is None)
+    return [{"vessel": n, "name": name, "shown": f"{n} {name}?"} for n, name in nameless]
 
 
 def of_devices() -> dict[str, Any]:

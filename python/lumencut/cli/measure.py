@@ -184,9 +184,13 @@ def _measured(
     """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""
     from lumencut.measuring.measured_vessel import MeasuredVessel
     from lumencut.measuring.sections import measure as library
+    from lumencut.tracing.suggested_names import suggest_names
 
     found, marked = [], _marked(chosen)
+    suggested = {str(n): one.name for n, one in enumerate(suggest_names(tree))}
     session = _session(chosen)
+    if session and session.contours:
+        warn(f"the session has {session.contours} contour(s) by hand, which only the viewer measures")
     # Options that mark a place or state the blur take precedence over the session file.
     marks = session.marks if session and chosen["at"] is None else ()
     marks_of = {str(number): each for number, each in enumerate(marks)}
@@ -199,7 +203,8 @@ def _measured(
                 profile = library(voxels, vessel, chosen["step"], fwhm, **how)
                 if marked.at is not None:
                     _refuse(profile, marked.at, marked)
-                found.append(MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked)))
+                made = MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked))
+                found.append(made.with_suggested_name(suggested.get(ids)))
             except MeasuringError as error:
                 if number == len(vessels) and not found:
                     raise

@@ -124,8 +124,22 @@ def trace(
     for vessel in tree:
         detail(f"{vessel!r}{_mean('radius', vessel.radius, ' mm')}{_mean('confidence', vessel.confidence)}")
     say(f"{output}: {tree!r}, {sum(vessel.length for vessel in tree):.1f} mm")
+    _say_suggested(tree, voxels)
     if preview is not None and voxels is not None:
         _render(voxels, tree, preview, device)
+
+
+def _say_suggested(tree: VesselTree, voxels: Volume | None) -> None:
+    """Report suggested names; none is written into the file."""
+    from lumencut.tracing.suggested_names import suggest_names
+
+    suggested = suggest_names(tree, voxels)
+    for number, one in enumerate(suggested):
+        if one.name is not None and tree[number].name is None:
+            say(f"vessel {number}: {one.name}? (suggested name, not written)")
+    veins = [str(number) for number, one in enumerate(suggested) if one.is_vein_or_heart]
+    if veins:
+        say(f"veins and heart (suggestion): vessels {', '.join(veins)}")
 
 
 #: Options for points; except `ras`, they have no effect on found vessels or a mask.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lumencut.base.public_names import public_name
 
 if TYPE_CHECKING:
+    from lumencut.measuring.comparison import Change, Comparison, compare_scans
     from lumencut.measuring.flags import Flag
     from lumencut.measuring.measurements import Measurements
     from lumencut.measuring.profile import Profile
@@ -17,11 +18,14 @@ if TYPE_CHECKING:
     from lumencut.measuring.stenosis import Stenosis
 
 __all__ = [
+    "Change",
+    "Comparison",
     "CrossSection",
     "Flag",
     "Measurements",
     "Profile",
     "Stenosis",
+    "compare_scans",
     "cross_section",
     "measure",
 ]

@@ -40,3 +40,5 @@ class Flag(IntFlag):
     RESTLESS_LINE = 512
     #: Plaque nearly as bright as the lumen lies beside it; the uncertainty includes it.
     PLAQUE = 1024
+    #: A reader drew the contour in the viewer.
+    BY_HAND = 2048

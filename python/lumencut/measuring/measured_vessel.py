@@ -67,6 +67,7 @@ class MeasuredVessel:
     profile: Profile
     marks: tuple[Mark, ...]
     _grade: _lumencut.Grade | None
+    _suggested_name: str | None = None
 
     @classmethod
     def of(cls, number: str, vessel: Vessel, profile: Profile, marked: Marked) -> MeasuredVessel:
@@ -98,6 +99,11 @@ class MeasuredVessel:
         """Why a marked place has no percentage: what is missing, or why a place is invalid."""
         return None if self._grade is None else self._grade.not_graded
 
+    def with_suggested_name(self, suggested: str | None) -> MeasuredVessel:
+        """Return the measured vessel with a name for a reader to confirm, unless it has a name."""
+        named = None if suggested is None else _lumencut.suggested_for(self.vessel.name or "", suggested)
+        return replace(self, _suggested_name=named)
+
     def unnamed(self) -> MeasuredVessel:
         """Return the measured vessel without its name."""
         return replace(self, vessel=Vessel(self.vessel.points, self.vessel.radius))
@@ -108,9 +114,9 @@ class MeasuredVessel:
         return self.number if self.vessel.name is None else f"{self.number} {self.vessel.name}"
 
     @property
-    def parts(self) -> tuple[str, str | None, _lumencut.Profile, _lumencut.Grade | None]:
+    def parts(self) -> tuple[str, str | None, str | None, _lumencut.Profile, _lumencut.Grade | None]:
         """The data from which tables, JSON and reports are made."""
-        return self.number, self.vessel.name, self.profile._core, self._grade
+        return self.number, self.vessel.name, self._suggested_name, self.profile._core, self._grade
 
     @property
     def _not_suggested(self) -> tuple[str, ...]:
@@ -126,7 +132,9 @@ class MeasuredVessel:
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
         outer = self.profile._core.outer_stretch()
-        return [*self.profile.not_measured(), *([] if outer is None else [outer]), *lines]
+        suggested = self._suggested_name
+        named = [] if suggested is None else [f"suggested name: {suggested}?"]
+        return [*named, *self.profile.not_measured(), *([] if outer is None else [outer]), *lines]
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:

@@ -13,14 +13,17 @@ if TYPE_CHECKING:
     from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.tracing.mask_tracing import trace_mask
     from lumencut.tracing.seed_tracing import trace_from
+    from lumencut.tracing.suggested_names import SuggestedName, suggest_names
     from lumencut.tracing.tracer import Tracer, trace
     from lumencut.tracing.vessel_finding import find_vessels
 
 __all__ = [
     "CenterlineComparison",
+    "SuggestedName",
     "Tracer",
     "compare_centerlines",
     "find_vessels",
+    "suggest_names",
     "trace",
     "trace_from",
     "trace_mask",

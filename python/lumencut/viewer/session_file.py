@@ -43,6 +43,8 @@ class SessionFile:
     fwhm : float or None
         The full width at half maximum of the point spread that the reader gave (mm); None where it was
         estimated.
+    contours : int
+        The number of contours that the reader drew.
     """
 
     path: Path
@@ -50,6 +52,7 @@ class SessionFile:
     marks: tuple[Marked, ...]
     hidden: tuple[int, ...]
     fwhm: float | None
+    contours: int = 0
 
 
 def is_session_file(path: Path) -> bool:
@@ -84,7 +87,8 @@ def read_session(path: str | Path) -> SessionFile:
     view = session["view"]
     shown = len(vessels) - len(hidden)
     recipe = None if view is None else _recipe(place, view, shown)
-    return SessionFile(place, recipe, marks, hidden, session["fwhm_mm"])
+    contours = sum(len(vessel.get("contours_mm", ())) for vessel in vessels)
+    return SessionFile(place, recipe, marks, hidden, session["fwhm_mm"], contours)
 
 
 def _marked(marks: dict[str, Any] | None) -> Marked:

@@ -24,10 +24,10 @@ export function commit(edit: Edit, options: EditOptions = {}): Promise<AfterEdit
   const { mask, then, renamed = (vessel) => vessel, bridging = false } = options;
   const files = mask && { mask };
   const work: Work<AfterEdit> = async (onProgress) => {
-    const ask = ({ vessels, stoppers, bridge }: Document) =>
+    const ask = ({ vessels, stoppers, bridge, bone_hidden }: Document) =>
       engine.ask(
         'edit',
-        { document: { vessels, stoppers, bridge }, edit, bridging },
+        { document: { vessels, stoppers, bridge, bone_hidden }, edit, bridging },
         { onProgress, ...files },
       );
     const answer = await latest(ask);
@@ -55,11 +55,17 @@ async function latest(ask: (document: Document) => Promise<AfterEdit>): Promise<
     const before = document_.value;
     const answer = await ask(before);
     const now = document_.value;
-    if (now.vessels === before.vessels && now.stoppers === before.stoppers && now.bridge === before.bridge) {
+    if (isSame(now, before)) {
       return answer;
     }
     keepAnswer(answer);
   }
 }
+
+const isSame = (one: Document, other: Document): boolean =>
+  one.vessels === other.vessels &&
+  one.stoppers === other.stoppers &&
+  one.bridge === other.bridge &&
+  one.bone_hidden === other.bone_hidden;
 
 export const isDone = (edit: Promise<unknown>): Promise<boolean> => edit.then((result) => result !== null);

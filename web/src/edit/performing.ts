@@ -2,6 +2,7 @@
 
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
+import { showGrips } from '../state/contour';
 import { aimAt, candidate, first, propose, setFirst } from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { redo, undo } from '../state/history';
@@ -128,6 +129,9 @@ function cancelEdit(): boolean {
     return true;
   }
   aimAt(null);
+  if (showGrips(false)) {
+    return true;
+  }
   if (editQueue.isBusy) {
     stopEdits();
     return true;

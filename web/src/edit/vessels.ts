@@ -12,12 +12,38 @@ export const recolor = (id: number, color: string): Promise<boolean> => set('col
 export const hide = (id: number, isHidden: boolean): Promise<boolean> =>
   set(isHidden ? 'hide a vessel' : 'show a vessel', id, { isHidden });
 
+/** Hides or shows several vessels in one step. */
+export function hideAll(vessels: readonly DocumentVessel[], isHidden: boolean): Promise<boolean> {
+  const words = isHidden ? 'hide veins and heart' : 'show veins and heart';
+  return commitPlain(words, (document) =>
+    vessels.reduce((before, { id }) => changed(before, id, { isHidden }), document),
+  );
+}
+
 /** Changes fields of a vessel at once, even while the engine is busy. An unchanged value creates no undo step. */
 function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<boolean> {
   return commitPlain(words, (document) => {
     const vessel = vesselOf(document, id);
     const isSame = vessel && Object.entries(to).every(([key, value]) => vessel[key as 'name'] === value);
     return isSame ? document : changed(document, id, to);
+  });
+}
+
+export const hideBone = (hidden: boolean): Promise<boolean> => isDone(commit({ kind: 'hide_bone', hidden }));
+
+type Contour = DocumentVessel['contours'][number];
+
+/** Draws a contour by hand, in place of an earlier one on its section, whose arc length is its first number. */
+export const drawContour = (id: number, contour: Contour): Promise<boolean> =>
+  setContours('draw a contour', id, contour[0] ?? 0, [contour]);
+
+export const removeContour = (id: number, at: number): Promise<boolean> =>
+  setContours('return to the automatic contour', id, at, []);
+
+function setContours(words: string, id: number, at: number, to: readonly Contour[]): Promise<boolean> {
+  return commitPlain(words, (document) => {
+    const others = vesselOf(document, id)?.contours.filter(([place]) => place !== at) ?? [];
+    return changed(document, id, { contours: [...others, ...to] });
   });
 }
 

@@ -3,14 +3,18 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
 import { pixelOn } from '../core/planes';
+import { pulledContour } from '../state/contour';
 import { pickedPlace } from '../state/store';
 import { engine } from '../worker/engine';
+import { ContourGrips } from './ContourGrips';
 import { currentProfile, currentVessel } from './current';
 import { nearestSection, sectionNumbers } from './sections';
 import { area, doubtWords, meanings, mm, spread, withKnownUnits } from './words';
 
 /** Contour colours, as in the pictures of `lumencut measure`. */
 export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a', outer: '#ff5ad0' } as const;
+/** The flag of contours drawn by hand. */
+const BY_HAND = 'by hand';
 const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
 
 interface Found {
@@ -42,13 +46,15 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
   const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
   const outer = profile.outer[nearestSection(profile, at)];
   const section = isShown ? found?.section : null;
+  const pulled = pulledContour.value;
+  const contour = pulled?.points ?? section?.contour ?? [];
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
   return (
     <>
-      {section && section.contour.length > 0 && (
+      {section && contour.length > 0 && (
         <svg class="section-marks" width={plane.size[0]} height={plane.size[1]} aria-hidden="true">
           <path
-            d={`M${pixels(section.contour).join('L')}Z`}
+            d={`M${pixels(contour).join('L')}Z`}
             stroke={numbers.counts ? CONTOUR.counts : CONTOUR.leftOut}
           />
           {section.outer_contour.length > 0 && (
@@ -58,22 +64,27 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
               stroke-dasharray="4 3"
             />
           )}
-          {section.longest && <path d={`M${pixels(section.longest).join('L')}`} stroke={AXES.longest} />}
-          {section.shortest && <path d={`M${pixels(section.shortest).join('L')}`} stroke={AXES.shortest} />}
+          {!pulled && section.longest && (
+            <path d={`M${pixels(section.longest).join('L')}`} stroke={AXES.longest} />
+          )}
+          {!pulled && section.shortest && (
+            <path d={`M${pixels(section.shortest).join('L')}`} stroke={AXES.shortest} />
+          )}
         </svg>
       )}
       <div class="section-numbers" data-testid="section-numbers">
         <div>{mm(numbers.at, 1)}</div>
-        <div>{`diameter ${spread(numbers.diameter, numbers.uncertainty)}`}</div>
-        <div style={{ color: AXES.shortest }}>{`shortest ${mm(numbers.shortest)}`}</div>
-        <div style={{ color: AXES.longest }}>{`longest ${mm(numbers.longest)}`}</div>
-        <div>{`area ${area(numbers.area)}`}</div>
+        <div>{`diameter ${pulled ? mm(pulled.diameter) : spread(numbers.diameter, numbers.uncertainty)}`}</div>
+        <div style={{ color: AXES.shortest }}>{`shortest ${mm((pulled ?? numbers).shortest)}`}</div>
+        <div style={{ color: AXES.longest }}>{`longest ${mm((pulled ?? numbers).longest)}`}</div>
+        <div>{`area ${area((pulled ?? numbers).area)}`}</div>
         {outer && <div style={{ color: CONTOUR.outer }}>{withKnownUnits(outer)}</div>}
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
         {numbers.flags.length > 0 && (
           <div title={meanings(profile, numbers.flags)}>{doubtWords(numbers).join(', ')}</div>
         )}
       </div>
+      <ContourGrips plane={plane} at={numbers.at} isByHand={numbers.flags.includes(BY_HAND)} />
     </>
   );
 }

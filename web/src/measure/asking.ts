@@ -18,9 +18,9 @@ import {
   takeAnswers,
   takeSentences,
 } from '../state/measuring';
-import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../state/profiles';
+import { beingMeasured, forgetProfiles, measure, profiles, renewProfile, stopped } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
-import { listedLines } from '../state/shown';
+import { listedLines, tree } from '../state/shown';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { currentMarks, currentProfile, currentVessel } from './current';
@@ -33,12 +33,24 @@ export function useMeasuring(): void {
   const latestFindings = useRef(new Latest());
   const answered = useRef<LineId | null>(null);
   const lines = useRef('');
+  const drawn = useRef(new Map<LineId, string>());
   useSignalEffect(() => {
     // A profile depends on all vessels, even hidden ones, because it excludes sections at branches.
     const now = listedLines.value;
     if (now !== lines.current) {
       lines.current = now;
       untracked(forgetProfiles);
+    }
+  });
+  useSignalEffect(() => {
+    // Profiles contain the contours that were drawn by hand.
+    for (const { line, contours } of tree.value) {
+      const text = JSON.stringify(contours);
+      const before = drawn.current.get(line) ?? '[]';
+      drawn.current.set(line, text);
+      if (text !== before && untracked(() => profiles.value.has(line))) {
+        renewProfile(line).catch(unlessGone);
+      }
     }
   });
   useSignalEffect(() => {

@@ -1,6 +1,7 @@
 /** Controls of the straightened CPR. */
 import type { Feature, Roll } from '../core/messages';
 import * as store from '../state/store';
+import { PlayButton } from './PlayButton';
 
 export function CprControls() {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
@@ -17,6 +18,7 @@ export function CprControls() {
         disabled={isRolled}
         onInput={(event) => store.setCprAngle(Number(event.currentTarget.value))}
       />
+      <PlayButton kind="roll" disabled={isRolled} />
       <output>{isRolled ? '' : `${degrees}°`}</output>
       <select
         aria-label="What a pixel shows"

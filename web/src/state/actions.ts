@@ -6,6 +6,7 @@ import { GESTURES } from '../core/generated/tables';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
 import type { Action } from '../input/bindings';
 import { engine } from '../worker/engine';
+import { stopCine } from './cine';
 import { destination, flyToAnswer } from './flight';
 import { windowChanged } from './history';
 import { dropLength, isArriving } from './measuring';
@@ -95,14 +96,17 @@ export function setWindow(window: Window): void {
   store.window_.value = [window[0], Math.max(window[1], GESTURES.narrowest_window)];
 }
 
-export function choosePreset(number: number): void {
-  const preset = store.report.value?.windows?.presets[number];
-  if (preset) {
+/** Sets the window as one undo step. */
+export function chooseWindow(window: Window | undefined): void {
+  if (window) {
     const before = store.window_.value;
-    setWindow(preset.window);
+    setWindow(window);
     windowChanged(before);
   }
 }
+
+export const choosePreset = (number: number): void =>
+  chooseWindow(store.report.value?.windows?.presets[number]?.window);
 
 export function settingOf(name: string): SettingValue {
   const chosen = store.ownSettings.value[name];
@@ -211,6 +215,7 @@ function cancel(): void {
     store.progress.value = null;
   }
   stopMeasuring();
+  stopCine();
   endPlaceTurn();
   batch(() => {
     store.isHelpOpen.value = false;

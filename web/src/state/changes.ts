@@ -23,12 +23,14 @@ export function afterEdit(now: Document, { document, without_marks: lost }: Edit
     vessels === now.vessels &&
     stoppers === now.stoppers &&
     document.bridge === now.bridge &&
+    document.bone_hidden === now.bone_hidden &&
     lost.length === 0;
   if (isSame) {
     return now;
   }
   const marks = Object.entries(now.marks).filter(([id]) => !lost.includes(Number(id)));
-  return { ...now, vessels, stoppers, bridge: document.bridge, marks: Object.fromEntries(marks) };
+  const { bridge, bone_hidden } = document;
+  return { ...now, vessels, stoppers, bridge, bone_hidden, marks: Object.fromEntries(marks) };
 }
 
 function kept<T>(before: readonly T[], after: readonly T[]): readonly T[] {

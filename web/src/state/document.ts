@@ -19,6 +19,7 @@ export const EMPTY: Document = {
   vessels: [],
   stoppers: [],
   bridge: false,
+  bone_hidden: false,
   marks: {},
   rulers: [],
   isOneMillimetre: false,

@@ -45,10 +45,10 @@ export function chooseLook(look: Pick<LookRow, 'settings'>): void {
 export const STENT_LOOK = 'lumen';
 const STENT_PRESET = 'stent';
 
-/** Whether the scan may contain stents: it is in Hounsfield units and has values as bright as metal. */
-export const mayHoldStents = computed<boolean>(
-  () => store.hasTree.value && (store.report.value?.windows?.may_hold_stents ?? false),
-);
+/** Whether the scan may be a CT: it is in Hounsfield units, or has values as bright as metal. */
+export const mayHaveBone = computed<boolean>(() => store.report.value?.windows?.may_hold_stents ?? false);
+
+export const mayHoldStents = computed<boolean>(() => store.hasTree.value && mayHaveBone.value);
 
 const presetNamed = (wanted: string): number =>
   store.report.value?.windows?.presets.findIndex(({ name }) => name === wanted) ?? -1;

@@ -50,6 +50,15 @@ export async function profileOfLine(line: LineId): Promise<Profile> {
   return engine.ask('profile', { line, fwhm: givenFwhm.value });
 }
 
+/** Replaces the known profile of a line after a contour of it was drawn by hand. */
+export async function renewProfile(line: LineId): Promise<void> {
+  const question = asked;
+  const profile = await engine.ask('profile', { line, fwhm: givenFwhm.value });
+  if (question === asked && profiles.value.has(line)) {
+    profiles.value = new Map(profiles.value).set(line, { profile });
+  }
+}
+
 async function profileOf(line: LineId, question: number): Promise<Measured | null> {
   try {
     showProgress(question, null);

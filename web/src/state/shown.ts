@@ -2,7 +2,14 @@
 
 import { batch, effect, signal, untracked } from '@preact/signals';
 import { Failure } from '../core/failure';
-import type { AfterEdit, DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
+import type {
+  AfterEdit,
+  DocumentVessel,
+  ListedLine,
+  Message,
+  Report,
+  VesselDocument,
+} from '../core/messages';
 import type { Window } from '../core/plain';
 import { engine } from '../worker/engine';
 import { shownVessels } from './changes';
@@ -45,10 +52,15 @@ export const pickedId = (): number | null => tree.value[store.pickedVessel.value
 const listOf = (vessels: readonly DocumentVessel[]): readonly ListedLine[] =>
   vessels
     .filter((vessel) => vessel.doubt === null)
-    .map(({ line, name, isHidden }) => ({ line, name, hidden: isHidden }));
-const textOf = (vessels: readonly DocumentVessel[]): string => JSON.stringify(listOf(vessels));
+    .map(({ line, name, isHidden, contours }) => ({ line, name, hidden: isHidden, contours }));
+/** What the engine shows of a document. */
+const shownOf = ({ vessels, bone_hidden }: VesselDocument): Message<'show'> => ({
+  lines: listOf(vessels),
+  bone_hidden,
+});
+const textOf = (document: VesselDocument): string => JSON.stringify(shownOf(document));
 
-let shownText = textOf([]);
+let shownText = textOf(EMPTY);
 
 /** Begins the document of a new study. Its vessels are already displayed, and there is nothing to undo. */
 export function beginStudy(vessels: VesselDocument | null): void {
@@ -58,7 +70,7 @@ export function beginStudy(vessels: VesselDocument | null): void {
     active.value = null;
     tree.value = document.vessels;
     listedLines.value = linesOf(document.vessels);
-    shownText = textOf(document.vessels);
+    shownText = textOf(document);
     begin(document);
   });
 }
@@ -83,9 +95,9 @@ export function followDocument(): () => void {
   return effect(() => {
     const [document, answer] = [document_.value, answered.value];
     if (answer && answer !== lastAnswer) {
-      shownText = textOf(answer.edited.document.vessels);
+      shownText = textOf(answer.edited.document);
     }
-    if (textOf(document.vessels) !== shownText) {
+    if (textOf(document) !== shownText) {
       void show();
     } else if (answer && answer !== lastAnswer) {
       untracked(() => {
@@ -128,11 +140,11 @@ async function showLatest(): Promise<void> {
   try {
     while (study) {
       const document = document_.value;
-      const text = textOf(document.vessels);
+      const text = textOf(document);
       if (text === shownText) {
         break;
       }
-      const report = await engine.ask('show', listOf(document.vessels));
+      const report = await engine.ask('show', shownOf(document));
       if (study === store.report.value?.volume) {
         shownText = text;
         await takeUp(report, document);

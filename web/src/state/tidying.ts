@@ -52,6 +52,15 @@ export const sure = computed<readonly DocumentVessel[]>(() =>
 
 export const factsOf = ({ line }: DocumentVessel): LineFacts | undefined => facts.value.get(line);
 
+/** A name for the user to confirm, if the vessel has no name or only a number. */
+export const suggestedNameOf = (vessel: DocumentVessel): string | null =>
+  /[^\d]$/.test(vessel.name) ? null : (factsOf(vessel)?.suggested_name ?? null);
+
+/** The vessels that seem to be veins or parts of the heart, unless the user named them. */
+export const veinsAndHeart = computed<readonly DocumentVessel[]>(() =>
+  sure.value.filter((vessel) => factsOf(vessel)?.is_vein_or_heart && !/[^\d]$/.test(vessel.name)),
+);
+
 const latest = new Latest();
 
 /** Keeps lengths and diameters of the vessels up to date while the list is open. Returns a function that stops this. */
@@ -94,9 +103,18 @@ function isMarked(vessel: DocumentVessel): boolean {
   return length < shorterThan.value || (calibre !== null && calibre < thinnerThan.value);
 }
 
-export const marked = computed<ReadonlySet<number>>(
-  () => new Set(sure.value.filter(isMarked).map((vessel) => vessel.id)),
-);
+/** Short or thin vessels, but none that connects a longer and thicker vessel to its tree: nothing comes loose. */
+export const marked = computed<ReadonlySet<number>>(() => {
+  const marked = new Map(sure.value.filter(isMarked).map((vessel) => [vessel.line, vessel.id]));
+  for (const kept of sure.value.filter((vessel) => !isMarked(vessel))) {
+    for (let above = parentOf(kept.line); above !== null; above = parentOf(above)) {
+      marked.delete(above);
+    }
+  }
+  return new Set(marked.values());
+});
+
+const parentOf = (line: LineId): LineId | null => facts.value.get(line)?.parent ?? null;
 
 export const unconnected = computed<readonly number[]>(() => {
   const picked = sure.value.find((vessel) => vessel.id === pickedId());

@@ -41,11 +41,12 @@ export function contentOf(
     doubtful_lines: doubtful.map(lineOf),
     session: {
       scan: scanOf(report),
-      vessels: sure.map(({ id, color, isHidden, clicks }) => ({
+      vessels: sure.map(({ id, color, isHidden, clicks, contours }) => ({
         color,
         hidden: isHidden,
         clicks,
         marks: savedMarks(document.marks[id]),
+        ...(contours.length > 0 && { contours_mm: contours }),
       })),
       doubtful: doubtful.map(({ color, doubt }) => ({ color, doubt: doubt ?? '' })),
       stoppers: document.stoppers.map(({ center, radius }) => ({ center, radius_mm: radius })),
@@ -54,6 +55,7 @@ export function contentOf(
       fwhm_mm: fwhm,
       view: displayState && viewOf(displayState, sure),
       one_millimetre_assumed: document.isOneMillimetre,
+      bone_hidden: document.bone_hidden,
     },
   };
 }
@@ -116,11 +118,13 @@ export function documentOf({ lines, doubtful_lines, session }: SessionContent): 
       isHidden: vessel.hidden,
       clicks: vessel.clicks,
       doubt: null,
+      contours: vessel.contours_mm ?? [],
     };
   });
   const doubtful = session.doubtful.map(({ color, doubt }, number): DocumentVessel => {
     const { line, name } = doubtful_lines[number] ?? { line: -1, name: '' };
-    return { id: sure.length + number, line, name, color, isHidden: false, clicks: null, doubt };
+    const more = { isHidden: false, clicks: null, contours: [] };
+    return { id: sure.length + number, line, name, color, doubt, ...more };
   });
   const marks = session.vessels.flatMap((vessel, id) => (vessel.marks ? [[id, marksOf(vessel.marks)]] : []));
   return {
@@ -130,6 +134,7 @@ export function documentOf({ lines, doubtful_lines, session }: SessionContent): 
     marks: Object.fromEntries(marks) as Document['marks'],
     rulers: session.rulers,
     isOneMillimetre: session.one_millimetre_assumed ?? false,
+    bone_hidden: session.bone_hidden ?? false,
   };
 }
 

@@ -22,7 +22,14 @@ export function Help() {
     }
   }, [isOpen]);
   return (
-    <dialog ref={dialog} class="help" onClose={closeHelp} aria-label="Keys and mouse">
+    <dialog
+      ref={dialog}
+      class="help"
+      // The browser reports the close only after the key press; a key pressed in between must find the help closed.
+      onCancel={closeHelp}
+      onClose={() => !dialog.current?.open && closeHelp()}
+      aria-label="Keys and mouse"
+    >
       <header>
         <h2>Keys and mouse</h2>
         <button type="button" onClick={closeHelp}>

@@ -1,6 +1,8 @@
 /** Display controls: look, region preset, margin around vessels, and edge lines. */
 import type { LookRow } from '../core/messages';
+import { hideBone } from '../edit/vessels';
 import { setSetting, settingOf } from '../state/actions';
+import { document_ } from '../state/history';
 import {
   chooseLines,
   chooseLook,
@@ -12,6 +14,7 @@ import {
   isStentShown,
   type Lines,
   lines,
+  mayHaveBone,
   mayHoldStents,
   STENT_LOOK,
 } from '../state/looks';
@@ -39,6 +42,7 @@ export function LooksBar() {
         ))}
         {mayHoldStents.value && <StentButton />}
       </fieldset>
+      {mayHaveBone.value && <BoneButton />}
       {hasTree.value && <RegionChoice />}
       <Reach />
       {hasTree.value && <LinesChoice />}
@@ -56,6 +60,20 @@ function StentButton() {
       onClick={chooseStent}
     >
       Stent
+    </button>
+  );
+}
+
+function BoneButton() {
+  const isHidden = document_.value.bone_hidden;
+  return (
+    <button
+      type="button"
+      aria-pressed={isHidden}
+      title="Hides bone around the cut and in MIPs; slices and measurements keep it. The first use searches for all vessels, to keep them"
+      onClick={() => void hideBone(!isHidden)}
+    >
+      Hide bone
     </button>
   );
 }

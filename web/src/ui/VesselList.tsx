@@ -15,6 +15,7 @@ import { isTracing, toggleTool } from '../state/tool';
 import { DoubtfulPart } from './DoubtfulPart';
 import { OpenMore } from './OpenButtons';
 import { TidyPart } from './TidyPart';
+import { VeinsPart } from './VeinsPart';
 import { NAMES_TO_OFFER, VesselRow } from './VesselRow';
 
 export function VesselList() {
@@ -28,6 +29,7 @@ export function VesselList() {
       <AddButtons />
       <DoubtfulPart vessels={doubtful(document_.value)} />
       <TidyPart />
+      <VeinsPart />
       {document_.value.vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
       {vessels.length > 1 && <TreeChoice />}
       <ul class="vessel-rows">

@@ -10,7 +10,15 @@ import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
 import { pickedId, pickOnceShown, tree } from '../state/shown';
 import { pickedPlace, report } from '../state/store';
-import { endHighlight, factsOf, highlight, isTreeShown, marked, sure } from '../state/tidying';
+import {
+  endHighlight,
+  factsOf,
+  highlight,
+  isTreeShown,
+  marked,
+  suggestedNameOf,
+  sure,
+} from '../state/tidying';
 import { extend, takeTool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';
@@ -69,6 +77,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
       >
         {vessel.isHidden ? '◌' : '◉'}
       </button>
+      <SuggestedName vessel={vessel} />
       {isPicked && !vessel.isHidden ? <VesselActions vessel={vessel} /> : null}
     </li>
   );
@@ -111,6 +120,21 @@ function NameField({ vessel, isPicked }: RowProps & { readonly isPicked: boolean
       onChange={(event) => void rename(vessel.id, event.currentTarget.value.trim())}
       onBlur={() => setTyped(null)}
     />
+  );
+}
+
+/** A name for the user to confirm; only a click gives it to the vessel. */
+function SuggestedName({ vessel }: RowProps) {
+  const suggested = suggestedNameOf(vessel);
+  return suggested === null ? null : (
+    <button
+      type="button"
+      class="suggested"
+      title="Suggested by place, course, width and branches. Click to use this name."
+      onClick={() => void rename(vessel.id, suggested)}
+    >
+      {`${suggested}?`}
+    </button>
   );
 }
 

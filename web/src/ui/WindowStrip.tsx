@@ -1,9 +1,10 @@
 /** The grey-value window over the histogram. Its ends and its middle can be dragged or moved by arrow keys. */
 import { useRef } from 'preact/hooks';
 import type { Histogram, Window } from '../core/messages';
-import { choosePreset, setWindow } from '../state/actions';
+import { setWindow } from '../state/actions';
 import { windowChanged } from '../state/history';
 import * as store from '../state/store';
+import { WindowPresets } from './WindowPresets';
 
 const WIDTH = 220;
 const HEIGHT = 26;
@@ -14,8 +15,6 @@ export function WindowStrip() {
   if (!histogram) {
     return null;
   }
-  const presets = store.report.value?.windows?.presets ?? [];
-  const chosen = presets.findIndex((preset) => preset.window[0] === level && preset.window[1] === width);
   const scale = new Scale(histogram, store.report.value?.windows?.main ?? store.window_.value);
   return (
     <div class="window-strip">
@@ -40,17 +39,7 @@ export function WindowStrip() {
         words="White"
         change={(high) => setWindow(between(level - width / 2, high))}
       />
-      <label>
-        <span class="hidden-words">Window preset</span>
-        <select value={chosen} onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
-          <option value={-1} disabled>
-            Custom window
-          </option>
-          {presets.map((preset, number) => (
-            <option key={preset.name} value={number}>{`${preset.words} (${number + 1})`}</option>
-          ))}
-        </select>
-      </label>
+      <WindowPresets />
     </div>
   );
 }

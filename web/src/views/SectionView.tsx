@@ -7,6 +7,7 @@ import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
 import { FlatPicture } from '../pane/FlatPicture';
+import { PlayButton } from '../pane/PlayButton';
 import { dragWindow, windowBack } from '../state/actions';
 import { moveAlong, moveCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
@@ -94,6 +95,9 @@ export function SectionView() {
         <>
           <EdgeLabels right={plane.right} down={plane.down} size={plane.size} spacing={plane.pixel_spacing} />
           <SectionMarks plane={plane} />
+          <div class="section-play">
+            <PlayButton kind="sections" />
+          </div>
           <SliceMeasures plane={plane} where="in the section" />
           {hair && <HairLines at={pixelOn(plane, hair.point)} />}
         </>

@@ -10,6 +10,7 @@ import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
 import { usePaneSize } from '../pane/pane-size';
 import * as actions from '../state/actions';
+import { everyFrame } from '../state/cine';
 import { placeAnswer } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { stepLumen } from '../state/lumens';
@@ -69,7 +70,11 @@ export function TurningView() {
     }
   });
 
-  useSignalEffect(() => (store.isTurning.value ? turnOn() : undefined));
+  useSignalEffect(() =>
+    store.isTurning.value
+      ? everyFrame((seconds) => actions.turnSlowly(TURN_PER_SECOND * seconds))
+      : undefined,
+  );
 
   useEffect(() => {
     const element = pane.current;
@@ -140,18 +145,6 @@ function paint(canvas: HTMLCanvasElement, picture: Picture): void {
     canvas.height = height;
   }
   canvas.getContext('2d')?.putImageData(new ImageData(picture.bytes, width, height), 0, 0);
-}
-
-function turnOn(): () => void {
-  let frame = 0;
-  let before = performance.now();
-  const step = (now: number) => {
-    actions.turnSlowly((TURN_PER_SECOND * (now - before)) / 1000);
-    before = now;
-    frame = requestAnimationFrame(step);
-  };
-  frame = requestAnimationFrame(step);
-  return () => cancelAnimationFrame(frame);
 }
 
 /** Arrow keys rotate, with Shift they pan; + and - zoom. */

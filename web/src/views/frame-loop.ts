@@ -5,8 +5,8 @@ import { Failure } from '../core/failure';
 import type { Drawn, View } from '../core/messages';
 import { engine } from '../worker/engine';
 
-/** Wanted time of a frame while the view moves (ms): 17 frames per second, and sharp ones. */
-const MOVING_TIME = 58;
+/** Wanted time of a frame while the view moves (ms): 16 frames per second, and sharp ones. */
+const MOVING_TIME = 61;
 /** The view counts as at rest after this time without change (ms). */
 const REST_AFTER = 80;
 /** The pause before an interrupted view is rendered again doubles each time, up to this multiple of the first. */

@@ -29,6 +29,7 @@ const EDITS: Partial<Record<Edit['kind'], string>> = {
   add_mask: 'Tracing the mask',
   add_whole_vessel: 'Finding vessels',
   find_vessels: 'Finding vessels',
+  hide_bone: 'Finding bone',
 };
 
 function wordsOf<N extends Question>(name: N, message: Message<N>): string | null {

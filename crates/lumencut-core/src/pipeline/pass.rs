@@ -95,6 +95,8 @@ pub struct LookPass<'a> {
     /// Pixels, instruction set, and whether to stop.
     pub work: Work<'a>,
     pub volume: &'a SharedVolume<'a>,
+    /// The volume that the context shows.
+    pub around: &'a SharedVolume<'a>,
     pub settings: &'a Settings,
     pub geometry: &'a Geometry,
     pub vessel: &'a [i32],
@@ -150,7 +152,7 @@ impl LookPass<'_> {
 
     fn blocks(&self, images: &mut Images) -> Result<()> {
         self.starts(images)?;
-        if has_rays(&images.start) { self.volume.blocks(self.work.stop).map(drop) } else { Ok(()) }
+        if has_rays(&images.start) { self.around.blocks(self.work.stop).map(drop) } else { Ok(()) }
     }
 
     /// Writes the starts of rays; without a cut surface every ray crosses the entire volume.
@@ -176,7 +178,7 @@ impl LookPass<'_> {
         if !has_rays(&images.start) {
             return Ok(());
         }
-        let (volume, blocks) = (&self.volume.volume, Some(self.volume.blocks(self.work.stop)?));
+        let (volume, blocks) = (&self.around.volume, Some(self.around.blocks(self.work.stop)?));
         images.gathered = vec![[0.0; 4]; self.work.pixels()];
         let surroundings = Surroundings { camera, volume, blocks };
         context(&self.work, &surroundings, self.settings, chosen, &images.start, &mut images.gathered)

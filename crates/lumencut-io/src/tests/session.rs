@@ -62,6 +62,7 @@ fn sample() -> SessionFile {
         fwhm_mm: Some(0.9),
         view: Some(view),
         one_millimetre_assumed: false,
+        bone_hidden: false,
     };
     SessionFile { lines: vec![line], session }
 }
@@ -93,6 +94,17 @@ fn an_assumed_millimetre_comes_back_and_is_of_format_2() {
     assert_eq!(written(&file), written(&sample()));
     let early = text.replace("\"format\":2", "\"format\":1");
     assert!(refused(&early).contains("found an assumed millimetre in version 1; expected version 2"));
+}
+
+#[test]
+fn hidden_bone_comes_back_and_is_of_format_2() {
+    let mut file = sample();
+    file.session.bone_hidden = true;
+    let text = written(&file);
+    file.session.format = 2;
+    assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
+    let early = text.replace("\"format\":2", "\"format\":1");
+    assert!(refused(&early).contains("found hidden bone in version 1; expected version 2"));
 }
 
 #[test]

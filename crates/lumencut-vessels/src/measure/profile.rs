@@ -1,5 +1,6 @@
 //! The profile of a vessel: its lumen at each arc length.
 
+pub mod by_hand;
 pub mod cross_section;
 pub(crate) mod lung;
 pub mod measuring;
@@ -283,8 +284,11 @@ fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
 }
 
 fn half_axes(place: &SectionPlane, fit: Option<&Fit>) -> [DVec3; 2] {
-    let in_world = |axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y;
-    fit.map_or([DVec3::NAN; 2], |fit| fit.ellipse.half_axes().map(in_world))
+    fit.map_or([DVec3::NAN; 2], |fit| half_axes_of(place, &fit.ellipse))
+}
+
+pub(crate) fn half_axes_of(place: &SectionPlane, ellipse: &Ellipse) -> [DVec3; 2] {
+    ellipse.half_axes().map(|axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y)
 }
 
 /// Values estimated on a tree that apply to all its vessels.

@@ -324,4 +324,4 @@ mod near_reference;
 
 #[cfg(test)]
 #[path = "stenosis/tests/made_profile.rs"]
-mod made_profile;
+pub(crate) mod made_profile;

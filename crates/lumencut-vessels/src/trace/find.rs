@@ -2,6 +2,7 @@
 
 pub(crate) mod all_tracks;
 pub(crate) mod bone;
+pub mod bone_voxels;
 pub(crate) mod candidates;
 pub(crate) mod confidence;
 pub(crate) mod doubtful;

@@ -23,7 +23,7 @@ pub(super) const STRIP: f64 = 150.0;
 
 const CURVE: &str = "#1f4e9c";
 const LEFT_OUT: &str = "#808080";
-const QUIET: &str = "#444444";
+pub(super) const QUIET: &str = "#444444";
 const OUTLINE: &str = "#222222";
 
 pub(super) struct Plot<'a> {

@@ -47,6 +47,7 @@ impl Study {
     pub(crate) fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
         let edited = self.edit(message, watch)?;
         let listed = listed(&edited.document);
+        self.hide_bone(edited.document.bone_hidden, &listed, watch)?;
         self.show(&listed)?;
         let known: Vec<usize> = message.document.vessels.iter().map(|vessel| vessel.line).collect();
         let mut new: Vec<usize> = edited.document.vessels.iter().map(|vessel| vessel.line).collect();
@@ -70,6 +71,7 @@ fn listed(document: &Document) -> Vec<ListedLine> {
         line: vessel.line,
         name: vessel.name.clone(),
         hidden: vessel.is_hidden,
+        contours: vessel.contours.clone(),
     };
     document.vessels.iter().filter(|vessel| vessel.is_sure()).map(of).collect()
 }

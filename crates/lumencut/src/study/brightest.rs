@@ -61,7 +61,7 @@ impl Study {
     }
 
     fn brightest_within(&self, view: &View, pixel: [f64; 2], within: [f64; 2]) -> Result<Pick> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.around().ok_or_else(no_volume)?.volume()?;
         let place = brightest_on_ray(&volume, &view.camera, pixel, within)?;
         Ok(self.at(place.to_array()))
     }

@@ -1,6 +1,6 @@
 //! What the open study contains: a volume, a tree, or both.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
 
 use crate::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
@@ -9,14 +9,17 @@ use lumencut_core::named::Named;
 use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
+use lumencut_core::volume::Volume;
 use serde::Serialize;
 
 use crate::defaults::pixel_side;
 use crate::doubted_scan::doubted_size;
 use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
+use crate::study::bone::WithoutBone;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
+use crate::suggested_names::{SuggestedName, suggested_names};
 use crate::value_unit::ValueUnit;
 use crate::windows;
 
@@ -60,6 +63,7 @@ pub struct Content {
     pub held: Option<HeldVolume>,
     pub(crate) named: Option<NamedTree>,
     pub(crate) can_reorder: bool,
+    pub(crate) without_bone: WithoutBone,
     windows: OnceLock<Option<Windows>>,
 }
 
@@ -135,7 +139,13 @@ impl Content {
     /// invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         let volume = self.held.as_ref().map(HeldVolume::shared).transpose()?;
-        Ok(Scene { volume, tree: self.tree().cloned() })
+        let context = self.without_bone.shown().map(HeldVolume::shared).transpose()?;
+        Ok(Scene { volume, tree: self.tree().cloned(), context })
+    }
+
+    /// The volume around the vessels, as the context shows it.
+    pub(crate) fn around(&self) -> Option<&HeldVolume> {
+        self.without_bone.shown().or(self.held.as_ref())
     }
 
     /// The tree, if there is one.
@@ -147,6 +157,20 @@ impl Content {
     pub fn scan(&self) -> &ScanDetails {
         static NONE: ScanDetails = ScanDetails::NOTHING;
         self.held.as_ref().map_or(&NONE, |held| &held.scan)
+    }
+
+    /// Suggested names by the numbers of the lines, hidden ones included.
+    pub(crate) fn suggested_names(&self) -> HashMap<usize, SuggestedName> {
+        let Some(named) = &self.named else { return HashMap::new() };
+        let (lines, vessels) = named.measured_among();
+        let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
+        let suggested = suggested_names(&tubes, self.volume().as_ref());
+        lines.iter().copied().zip(suggested).collect()
+    }
+
+    /// The open volume, if it is valid.
+    pub(crate) fn volume(&self) -> Option<Volume<'_>> {
+        self.held.as_ref().and_then(|held| held.volume().ok())
     }
 
     pub(crate) fn hold_lumen(&mut self) -> Result<()> {

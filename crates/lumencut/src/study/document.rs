@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::study::contours::Contour;
 use crate::study::palette::next_color;
 use crate::study::tracing::StopperMessage;
 
@@ -24,12 +25,23 @@ pub(crate) struct DocumentVessel {
     pub(crate) clicks: Option<Vec<WorldPoint>>,
     /// Why a found branch is doubtful, until it is accepted.
     pub(crate) doubt: Option<String>,
+    /// The contours that were drawn by hand on the vessel's line.
+    #[serde(default)]
+    pub(crate) contours: Vec<Contour>,
 }
 
 impl DocumentVessel {
     /// Whether the vessel is not doubtful: other vessels may join it, and clicks in it add nothing.
     pub(crate) fn is_sure(&self) -> bool {
         self.doubt.is_none()
+    }
+
+    /// Gives the vessel another line. Contours by hand belong to the sections of their line, so they are lost.
+    pub(crate) fn take_line(&mut self, line: usize) {
+        if self.line != line {
+            self.line = line;
+            self.contours.clear();
+        }
     }
 
     pub(crate) fn called(&self) -> String {
@@ -45,6 +57,9 @@ pub(crate) struct Document {
     pub(crate) stoppers: Vec<StopperMessage>,
     /// Whether tracing bridges stretches without visible lumen.
     pub(crate) bridge: bool,
+    /// Whether the context hides bone.
+    #[serde(default)]
+    pub(crate) bone_hidden: bool,
 }
 
 impl Document {

@@ -49,7 +49,7 @@ impl Draft {
     /// Gives a vessel a line that was not traced between clicks; its clicks and marks are lost.
     pub(crate) fn replace(&mut self, id: u32, line: usize) {
         if let Some(vessel) = self.vessel(id) {
-            vessel.line = line;
+            vessel.take_line(line);
             vessel.clicks = None;
             self.without_marks.push(id);
         }

@@ -61,7 +61,7 @@ impl Study {
     }
 
     fn trace_clicked(&mut self, draft: &mut Draft, watch: Watch) -> Result<()> {
-        let Document { vessels, stoppers, bridge } = &draft.document;
+        let Document { vessels, stoppers, bridge, .. } = &draft.document;
         let request = TraceRequest {
             vessels: draft.clicked().map(|(_, clicks)| clicks.clone()).collect(),
             stoppers: stoppers.clone(),
@@ -74,7 +74,7 @@ impl Study {
         let lines = self.trace(&request, watch).map_err(|failure| draft.in_names(failure))?;
         let clicked = draft.document.vessels.iter_mut().filter(|vessel| vessel.clicks.is_some());
         for (vessel, line) in clicked.zip(lines) {
-            vessel.line = line;
+            vessel.take_line(line);
         }
         Ok(())
     }
@@ -147,6 +147,7 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
         Edit::MoveClick { id, number, point } => draft.move_click(*id, *number, *point),
         Edit::RemoveClick { id, number } => return draft.remove_click(*id, *number),
         Edit::SetBridge { bridge } => draft.document.bridge = *bridge,
+        Edit::HideBone { hidden } => draft.document.bone_hidden = *hidden,
         Edit::AddStopper { .. } | Edit::MoveStopper { .. } | Edit::RemoveStopper { .. } => {
             draft.change_stoppers(edit);
         }
@@ -158,7 +159,14 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
                 draft.add(named.line, named.name.clone());
             }
         }
-        _ => {}
+        // `Study::edit` carries these out.
+        Edit::AddBranches { .. }
+        | Edit::AddWholeVessel { .. }
+        | Edit::FindVessels { .. }
+        | Edit::AddMask
+        | Edit::Cut { .. }
+        | Edit::Join { .. }
+        | Edit::AddClickOnLine { .. } => {}
     }
     edit.is_of_clicks()
 }

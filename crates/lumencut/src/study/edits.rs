@@ -1,5 +1,5 @@
-//! The edits of vessels that a viewer offers, and their results. Name, colour and visibility are not edits: the
-//! viewer sets these fields immediately, since nothing follows from them. The viewer also undoes edits: it keeps
+//! The edits of vessels that a viewer offers, and their results. Name, colour, visibility and contours by hand
+//! are not edits: the viewer sets these fields immediately, since nothing follows from them. The viewer also undoes edits: it keeps
 //! earlier documents with their marks and rulers, which must not wait for tracing.
 
 use serde::{Deserialize, Serialize};
@@ -49,6 +49,10 @@ pub(crate) enum Edit {
     /// Sets whether tracing bridges stretches without visible lumen.
     SetBridge {
         bridge: bool,
+    },
+    /// Sets whether the context hides bone.
+    HideBone {
+        hidden: bool,
     },
     /// Cuts a vessel in two; the second part gets its own name and colour.
     Cut {
@@ -130,6 +134,8 @@ impl Edit {
             Self::RemoveStopper { .. } => "remove a stopper",
             Self::SetBridge { bridge: true } => "bridge gaps",
             Self::SetBridge { bridge: false } => "leave gaps",
+            Self::HideBone { hidden: true } => "hide bone",
+            Self::HideBone { hidden: false } => "show bone",
             Self::Cut { .. } => "cut a vessel",
             Self::Join { .. } => "join two vessels",
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),

@@ -8,8 +8,9 @@ use crate::parts::{parents, parts};
 use crate::study::failure::Result;
 use crate::study::lines::Line;
 use crate::study::open_study::Study;
+use crate::suggested_names::suggested_names;
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct LineFacts {
     pub line: usize,
@@ -20,6 +21,10 @@ pub(crate) struct LineFacts {
     pub part: usize,
     /// The line from which this line branches; null for the widest line of a part.
     pub parent: Option<usize>,
+    /// The name that the rules suggest; null if they are not sure.
+    pub(crate) suggested_name: Option<String>,
+    /// Whether the line seems to be a vein or part of the heart.
+    pub(crate) is_vein_or_heart: bool,
 }
 
 /// The length of a line (mm).
@@ -38,12 +43,18 @@ impl Study {
         }
         let widths: Vec<Option<f64>> = lines.iter().map(|line| calibre(line)).collect();
         let parents = parents(&points, &widths);
+        let radii: Vec<_> = lines.iter().map(|line| line.known_radius()).collect();
+        let tubes: Vec<_> =
+            points.iter().zip(&radii).map(|(line, radius)| (*line, radius.as_deref())).collect();
+        let suggested = suggested_names(&tubes, self.content.volume().as_ref());
         let fact = |n: usize| LineFacts {
             line: numbers[n],
             length: length_of(&lines[n]),
             calibre: widths[n],
             part: part_of[n],
             parent: parents[n].map(|parent| numbers[parent]),
+            suggested_name: suggested[n].name.clone(),
+            is_vein_or_heart: suggested[n].is_vein_or_heart,
         };
         Ok((0..lines.len()).map(fact).collect())
     }

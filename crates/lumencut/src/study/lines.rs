@@ -10,6 +10,7 @@ use lumencut_vessels::trace::clicks::Traced;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use serde::{Deserialize, Serialize};
 
+use crate::study::contours::Contour;
 use crate::study::failure::Result;
 
 /// A vessel line: its points, with radius, confidence and bridging of each point.
@@ -47,13 +48,16 @@ pub(crate) struct NamedLine {
 }
 
 /// A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct ListedLine {
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
     pub(crate) hidden: bool,
+    /// Contours that were drawn by hand on the line.
+    #[serde(default)]
+    pub(crate) contours: Vec<Contour>,
 }
 
 impl Line {

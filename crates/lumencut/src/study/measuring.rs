@@ -12,6 +12,7 @@ use crate::study::failure::Result;
 use crate::study::measure_messages::VesselMessage;
 use crate::study::open_study::Study;
 use crate::study::profiles::{ProfileParameters, Profiles};
+use crate::suggested_names::is_nameless;
 
 pub(super) struct GradedVessel {
     number: usize,
@@ -92,9 +93,13 @@ impl Study {
         graded: &'a [GradedVessel],
         is_millimetre_assumed: bool,
     ) -> Vec<Measured<'a>> {
+        let suggested = self.content.suggested_names();
+        let suggested_name =
+            |one: &VesselMessage| suggested.get(&one.line).filter(|_| is_nameless(&one.name))?.name.clone();
         let row = |(vessel, graded): (&VesselMessage, &'a GradedVessel)| Measured {
             id: vessel.id.clone(),
             name: Some(vessel.name.clone()).filter(|name| !name.is_empty()),
+            suggested_name: suggested_name(vessel),
             profile: self.profiles.kept(graded.number),
             scan: self.content.scan(),
             grade: graded.grade.as_ref(),

@@ -30,6 +30,7 @@ impl Study {
         self.trees = None;
         self.forget_profiles();
         self.content.forget_windows();
+        self.content.without_bone = Default::default();
         if let Some(held) = &mut self.content.held {
             held.key = Default::default();
         }

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 
 use lumencut_core::stop::Stop;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::profile::by_hand::Outline;
 use lumencut_vessels::measure::profile::measuring::STEP;
 use lumencut_vessels::measure::wall::WallRequest;
 
@@ -21,6 +22,10 @@ pub(crate) struct Profiles {
     kept: KeptProfiles<usize>,
     /// The last requested point-spread width of each line.
     widths: HashMap<usize, Option<f64>>,
+    /// The contours that were drawn by hand on each line.
+    outlines: Vec<(usize, Vec<Outline>)>,
+    /// The profiles with these contours, by cache index.
+    drawn: Vec<(usize, Profile)>,
 }
 
 impl Profiles {
@@ -34,6 +39,7 @@ impl Profiles {
         let (listed, tree) = content.named.as_ref().map_or((&[][..], &[][..]), NamedTree::measured_among);
         if self.listed != listed {
             self.kept = KeptProfiles::default();
+            self.drawn.clear();
             self.listed = listed.to_vec();
         }
         let volume = &content.held.as_ref().map(HeldVolume::volume).transpose()?.ok_or_else(no_volume)?;
@@ -46,12 +52,30 @@ impl Profiles {
             wall: WallRequest::Automatic,
             stop: parameters.stop,
         };
-        Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &parameters)?)
+        let number = self.kept.of(line, &tree[number], Scan { volume, tree }, &parameters)?;
+        let outlines = self.outlines.iter().find(|(own, _)| *own == line);
+        if let Some((_, outlines)) = outlines.filter(|_| self.drawn.iter().all(|(own, _)| *own != number)) {
+            let side = volume.world_from_index().matrix3.determinant().abs().cbrt();
+            self.drawn.push((number, self.kept.kept(number).drawn(outlines, side)));
+        }
+        Ok(number)
+    }
+
+    /// Replaces the contours that were drawn by hand on a line.
+    pub(crate) fn draw(&mut self, line: usize, outlines: Vec<Outline>) {
+        let known = self.outlines.iter().position(|(own, _)| *own == line);
+        if known.map_or(outlines.is_empty(), |known| self.outlines[known].1 == outlines) {
+            return;
+        }
+        self.outlines.retain(|(own, _)| *own != line);
+        self.outlines.push((line, outlines));
+        self.drawn.clear();
     }
 
     /// The profile at an index that [`Profiles::of`] returned last.
     pub(crate) fn kept(&self, number: usize) -> &Profile {
-        self.kept.kept(number)
+        let drawn = self.drawn.iter().find(|(own, _)| *own == number);
+        drawn.map_or_else(|| &**self.kept.kept(number), |(_, profile)| profile)
     }
 
     /// Any cached profile of a line. The planes of its sections do not depend on the point spread.

@@ -9,6 +9,7 @@ use crate::study::after_edit::{AfterEdit, FirstClick};
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::{AskedMessage, OpenedLines};
 use crate::study::content::Report;
+use crate::study::contours::{Contour, DrawnContour};
 use crate::study::document::{Document, DocumentVessel};
 use crate::study::doubts::{DoubtRow, doubt_rows};
 use crate::study::edits::EditMessage;
@@ -140,8 +141,9 @@ of_the_study {
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;
 
     /// Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured
-    /// together. Windows stay unchanged.
-    [Turn::First] show(lines: Vec<ListedLine>) -> Report = {
+    /// together. Windows stay unchanged. The context may hide bone.
+    [Turn::First] show { lines: Vec<ListedLine>, bone_hidden: bool } -> Report = {
+        study.hide_bone(bone_hidden, &lines, asking.watch)?;
         study.show(&lines)?;
         study.report()?
     };
@@ -173,6 +175,11 @@ of_the_study {
     /// The section nearest to an arc length (mm).
     [Turn::First] measured_section { line: usize, at: f64 } -> SectionMessage =
         SectionMessage::nearest(measured(study, line, asking)?, at);
+
+    /// The contour of the section nearest to an arc length (mm), drawn by hand: `contour`, or else the one that counts, after a pull to
+    /// a point, if there is one. Nothing is kept.
+    [Turn::First] drawn_contour { line: usize, at: f64, contour: Option<Contour>, to: Option<Vector> } -> DrawnContour =
+        study.drawn_contour(line, at, (contour, to), asking.watch.stop)?;
 
     /// The stretch between two arc lengths (mm).
     [Turn::First] stretch { line: usize, ends: [f64; 2] } -> StretchMessage =

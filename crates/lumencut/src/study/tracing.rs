@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::found_vessels::{self, FoundLine};
 use crate::study::content::{Listed, NamedTree};
+use crate::study::contours::drawn_outlines;
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
 use crate::study::line_edits::{cut, join};
@@ -170,6 +171,11 @@ impl Study {
     pub(crate) fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
         let vessels = listed.iter().map(|one| self.lines.get(one.line)?.vessel());
         let vessels = vessels.collect::<Result<Vec<_>>>()?;
+        let mut outlines = Vec::new();
+        for (one, vessel) in listed.iter().zip(&vessels) {
+            let length = vessel.arc_length().last().copied().unwrap_or(0.0);
+            outlines.push(drawn_outlines(&one.contours, length)?);
+        }
         let shown: Vec<_> = listed.iter().zip(&vessels).filter(|(one, _)| !one.hidden).collect();
         let named = if shown.is_empty() {
             None
@@ -180,6 +186,9 @@ impl Study {
             let all = Listed { lines: listed.iter().map(|one| one.line).collect(), vessels };
             Some(NamedTree::new(tree, names, lines).among(all))
         };
+        for (one, outlines) in listed.iter().zip(outlines) {
+            self.profiles.draw(one.line, outlines);
+        }
         self.laid = None;
         self.reformed = None;
         self.content.named = named;

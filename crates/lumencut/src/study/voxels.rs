@@ -62,6 +62,40 @@ impl Stored {
         })
     }
 
+    /// A copy in which the voxels that `is_replaced` chooses by their index have this value, or the nearest one of the type.
+    pub(crate) fn replaced(&self, is_replaced: impl Fn(usize) -> bool, value: f64) -> Result<Self> {
+        let (dtype, value) = match self {
+            Self::U8(_) => ("uint8", vec![value.round() as u8]),
+            Self::I16(_) => ("int16", (value.round() as i16).to_ne_bytes().to_vec()),
+            Self::U16(_) => ("uint16", (value.round() as u16).to_ne_bytes().to_vec()),
+            Self::F32(_) => ("float32", (value as f32).to_ne_bytes().to_vec()),
+        };
+        let mut copy = Self::zeros(dtype, (self.bytes().len() / value.len()) as f64)?;
+        let bytes = copy.bytes_mut();
+        bytes.copy_from_slice(self.bytes());
+        for (n, voxel) in bytes.chunks_exact_mut(value.len()).enumerate() {
+            if is_replaced(n) {
+                voxel.copy_from_slice(&value);
+            }
+        }
+        Ok(copy)
+    }
+
+    /// Takes over a voxel of voxels of the same type and number.
+    pub(crate) fn take_voxel(&mut self, other: &Self, n: usize) {
+        let side = match self {
+            Self::U8(_) => 1,
+            Self::I16(_) | Self::U16(_) => 2,
+            Self::F32(_) => 4,
+        };
+        let voxel = n * side..(n + 1) * side;
+        self.bytes_mut()[voxel.clone()].copy_from_slice(&other.bytes()[voxel]);
+    }
+
+    fn bytes(&self) -> &[u8] {
+        with_stored!(self, voxels => bytemuck::cast_slice(voxels))
+    }
+
     /// The voxels as the type of the core, which borrows them.
     pub fn voxels(&self) -> Voxels<'_> {
         match self {
@@ -86,6 +120,13 @@ fn scattered<T: Copy + Default>(
 }
 
 fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
+    let mut voxels = reserved(count)?;
+    voxels.resize(count as usize, T::default());
+    Ok(voxels)
+}
+
+/// An empty list with room for `count` voxels. Fails with an error of kind `volume` if there is not enough memory.
+pub(crate) fn reserved<T>(count: f64) -> Result<Vec<T>> {
     let mut voxels = Vec::new();
     // The cast saturates, but a count larger than any memory cannot be allocated anyway.
     if voxels.try_reserve_exact(count as usize).is_err() {
@@ -97,6 +138,5 @@ fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
             .mended_by(Mend::EverySecond)
             .into());
     }
-    voxels.resize(count as usize, T::default());
     Ok(voxels)
 }

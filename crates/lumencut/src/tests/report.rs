@@ -37,6 +37,7 @@ fn page_of<'a>(
         measured: Measured {
             id: "0".to_owned(),
             name: Some(name.to_owned()),
+            suggested_name: None,
             profile,
             scan: &ScanDetails::NOTHING,
             grade,

@@ -115,6 +115,8 @@ export type DocumentVessel = {
   readonly clicks: ReadonlyArray<Vector> | null;
   /** Why a found branch is doubtful, until it is accepted. */
   readonly doubt: string | null;
+  /** The contours that were drawn by hand on the vessel's line. */
+  readonly contours: ReadonlyArray<ReadonlyArray<number>>;
 };
 
 export type DoubtRow = {
@@ -128,6 +130,20 @@ export type DoubtfulPlace = {
   readonly words: string;
   /** The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line. */
   readonly at: number | null;
+};
+
+/** A contour while it is drawn, with its numbers. */
+export type DrawnContour = {
+  /** Arc length of the section; centre; radii (mm). */
+  readonly contour: ReadonlyArray<number>;
+  readonly points: ReadonlyArray<Vector>;
+  readonly grips: ReadonlyArray<Vector>;
+  /** Diameter of the circle of the same area (mm). */
+  readonly diameter: number;
+  readonly shortest: number;
+  readonly longest: number;
+  /** Area (mm²). */
+  readonly area: number;
 };
 
 /** The letters at the four edges of a picture. */
@@ -176,6 +192,9 @@ export type Edit = {
 } | {
   readonly "kind": "set_bridge";
   readonly bridge: boolean;
+} | {
+  readonly "kind": "hide_bone";
+  readonly hidden: boolean;
 } | {
   readonly "kind": "cut";
   readonly id: number;
@@ -315,6 +334,10 @@ export type LineFacts = {
   readonly part: number;
   /** The line from which this line branches; null for the widest line of a part. */
   readonly parent: number | null;
+  /** The name that the rules suggest; null if they are not sure. */
+  readonly suggested_name: string | null;
+  /** Whether the line seems to be a vein or part of the heart. */
+  readonly is_vein_or_heart: boolean;
 };
 
 /** A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number. */
@@ -323,6 +346,8 @@ export type ListedLine = {
   /** Name; may be empty. */
   readonly name: string;
   readonly hidden: boolean;
+  /** Contours that were drawn by hand on the line. */
+  readonly contours: ReadonlyArray<ReadonlyArray<number>>;
 };
 
 export type Look = {
@@ -765,6 +790,8 @@ export type SavedSession = {
   readonly view: SavedView | null;
   /** Whether a voxel spacing of 1 mm was assumed; exists since version 2. */
   readonly one_millimetre_assumed?: boolean;
+  /** Whether the context hides bone; exists since version 2. */
+  readonly bone_hidden?: boolean;
 };
 
 /** A sphere that traced vessels must not enter. */
@@ -785,6 +812,8 @@ export type SavedVessel = {
   readonly clicks: ReadonlyArray<Vector> | null;
   /** Marks that the reader set, if any. */
   readonly marks: SavedMarks | null;
+  /** Contours that the reader drew: arc length, centre (to the right and down in the section), and distances from the centre at equal angles; exist since version 2. */
+  readonly contours_mm?: ReadonlyArray<ReadonlyArray<number>>;
 };
 
 /** The view of a scan. */
@@ -946,6 +975,8 @@ export type VesselDocument = {
   readonly stoppers: ReadonlyArray<Stopper>;
   /** Whether tracing bridges stretches without visible lumen. */
   readonly bridge: boolean;
+  /** Whether the context hides bone. */
+  readonly bone_hidden: boolean;
 };
 
 export type VesselReport = {
@@ -1189,9 +1220,12 @@ export type Questions = {
     readonly message: LineContent;
     readonly answer: number;
   };
-  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. */
+  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone. */
   readonly show: {
-    readonly message: ReadonlyArray<ListedLine>;
+    readonly message: {
+      readonly lines: ReadonlyArray<ListedLine>;
+      readonly bone_hidden: boolean;
+    };
     readonly answer: Report;
   };
   /** Writes these lines to a centerline file. */
@@ -1249,6 +1283,16 @@ export type Questions = {
       readonly at: number;
     };
     readonly answer: MeasuredSection;
+  };
+  /** The contour of the section nearest to an arc length (mm), drawn by hand: `contour`, or else the one that counts, after a pull to a point, if there is one. Nothing is kept. */
+  readonly drawn_contour: {
+    readonly message: {
+      readonly line: number;
+      readonly at: number;
+      readonly contour: ReadonlyArray<number> | null;
+      readonly to: Vector | null;
+    };
+    readonly answer: DrawnContour;
   };
   /** The stretch between two arc lengths (mm). */
   readonly stretch: {
@@ -1414,6 +1458,7 @@ export const TURNS = {
   offered_references: { when: 'first', words: null },
   diameter_at: { when: 'first', words: null },
   measured_section: { when: 'first', words: null },
+  drawn_contour: { when: 'first', words: null },
   stretch: { when: 'first', words: null },
   angle_between: { when: 'first', words: null },
   profiles_csv: { when: 'first', words: null },

@@ -23,5 +23,8 @@ pub const RESTLESS_LINE: u32 = 1 << 9;
 /// Plaque nearly as bright as the lumen lies beside it, or makes it dimmer and narrower.
 pub const PLAQUE: u32 = 1 << 10;
 
+/// A reader drew the contour.
+pub const BY_HAND: u32 = 1 << 11;
+
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

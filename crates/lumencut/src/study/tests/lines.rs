@@ -144,7 +144,7 @@ fn named(line: usize, name: &str) -> NamedLine {
 }
 
 fn listed(line: usize, name: &str) -> ListedLine {
-    ListedLine { line, name: name.into(), hidden: false }
+    ListedLine { line, name: name.into(), hidden: false, ..Default::default() }
 }
 
 #[test]

@@ -181,7 +181,12 @@ fn a_slab_limits_the_ray_to_itself() {
     let line = json!({"points": [[0, 2, 3], [4, 2, 3]], "radius": null, "confidence": null, "bridged": null});
     let line = study.add_line(serde_json::from_value(line).expect("a line")).expect("a line");
     study
-        .show(&[crate::study::lines::ListedLine { line, name: String::new(), hidden: false }])
+        .show(&[crate::study::lines::ListedLine {
+            line,
+            name: String::new(),
+            hidden: false,
+            ..Default::default()
+        }])
         .expect("a tree");
     let slab = json!({"slab": [3.0, "max"]});
     assert_eq!(brightest(&mut study, [2.0, 2.0], &slab).expect("a place").point, [2.0, 2.0, 3.0]);

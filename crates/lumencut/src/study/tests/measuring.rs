@@ -240,7 +240,7 @@ fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
 }
 
 fn listed(line: usize) -> ListedLine {
-    ListedLine { line, name: String::new(), hidden: false }
+    ListedLine { line, name: String::new(), hidden: false, ..Default::default() }
 }
 
 fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
