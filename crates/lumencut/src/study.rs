@@ -54,3 +54,4 @@ mod whole_vessel;
 
 #[cfg(test)]
 pub(crate) mod tests;
+mod without_bone;
