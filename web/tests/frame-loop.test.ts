@@ -155,7 +155,7 @@ describe('while the view moves', () => {
     }
     const last = shown.filter(({ stage }) => stage === 'moving').at(-1);
     expect(last?.drawn.milliseconds).toBeGreaterThan(25);
-    expect(last?.drawn.milliseconds).toBeLessThan(60);
+    expect(last?.drawn.milliseconds).toBeLessThan(62);
     expect(new Set(stages())).toEqual(new Set(['moving']));
   });
 

@@ -128,6 +128,7 @@ describe('the content of a session', () => {
       'fwhm_mm',
       'view',
       'one_millimetre_assumed',
+      'bone_hidden',
     ]);
   });
 });

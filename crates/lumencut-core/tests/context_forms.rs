@@ -322,7 +322,7 @@ fn presets_follow_the_context_window() {
 #[test]
 fn shading_is_that_of_the_direction_in_which_values_rise_at_the_place() {
     let size = [16, 12, 12];
-    let value = |n: usize| (100 + 10 * if n % 16 < 8 { n / 16 % 12 } else { n / 192 }) as i16;
+    let value = |n: usize| (100 + 1000 * if n % 16 < 8 { n / 16 % 12 } else { n / 192 }) as i16;
     let voxels: Vec<i16> = (0..size.iter().product()).map(value).collect();
     let scene = volume(Voxels::I16(&voxels), size, DAffine3::IDENTITY);
     let camera = Camera::new(DVec3::new(7.5, 0.0, 5.5), DVec3::Y, DVec3::Z, [16, 12], 1.0).unwrap();

@@ -52,5 +52,7 @@ pub mod view;
 pub mod voxels;
 mod whole_vessel;
 
+mod outlines;
 #[cfg(test)]
 pub(crate) mod tests;
+mod without_bone;

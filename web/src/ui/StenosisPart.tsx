@@ -101,8 +101,8 @@ function Doubts() {
   ) : null;
 }
 
-const NOTHING_MARKED =
-  'Nothing is marked. Check the suggested places, drag them where they belong, or confirm them.';
+const NOTHING_MARKED = 'Nothing is marked.';
+const CHECK_SUGGESTIONS = 'Check the suggested places, drag them where they belong, or confirm them.';
 
 /** A hint, not an error, and therefore shown without emphasis. */
 const ONLY_REFERENCES = 'Only a reference is marked. Press "Narrowest here" to get a percentage.';
@@ -120,7 +120,11 @@ function NotGraded({ marks }: { readonly marks: VesselMarks }) {
   const isMarked = marks.at !== null || marks.references.length > 0;
   return (
     <div role="status" data-testid="stenosis">
-      {isMarked ? <NoPercentage marks={marks} /> : <p>{NOTHING_MARKED}</p>}
+      {isMarked ? (
+        <NoPercentage marks={marks} />
+      ) : (
+        <p>{suggestions.length > 0 ? `${NOTHING_MARKED} ${CHECK_SUGGESTIONS}` : NOTHING_MARKED}</p>
+      )}
       {suggestions.length > 0 && (
         <button type="button" onClick={confirmAll}>
           {suggestions.length === 1 ? 'Confirm the suggested place' : 'Confirm the suggested places'}

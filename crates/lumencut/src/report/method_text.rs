@@ -4,6 +4,7 @@ use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::Method;
+use lumencut_vessels::measure::wall::WallSource;
 use serde::Deserialize;
 
 use super::chart::{FlagRow, flag_rows};
@@ -107,10 +108,12 @@ fn contrast(profile: &Profile) -> String {
     contrasts.retain(|value| value.is_finite());
     let Some(contrast) = median(&mut contrasts) else { return "No contrast is known.".to_owned() };
     let ratio = if profile.noise > 0.0 { contrast / profile.noise } else { f64::INFINITY };
+    let is_in_hu =
+        matches!(profile.wall_source, WallSource::Hounsfield | WallSource::Pooled { given: None, .. });
     format!(
         "Contrast to noise {}, contrast {} {}.",
         fixed(ratio, 0),
         rounded(contrast, 4),
-        if of_wall(&profile.wall_source).contains(" HU") { "HU" } else { "in the unit of the volume" }
+        if is_in_hu { "HU" } else { "in the unit of the volume" }
     )
 }

@@ -1,5 +1,5 @@
-//! The volume without bone, which the context shows on request. Bone is found once; vessels that are listed later get their
-//! voxels back. Measurements, slices and the cut always read the scan itself.
+//! Hides bone on request. Bone is found once; vessels that are listed later get their voxels back. Measurements, slices and the
+//! cut always read the scan itself.
 
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::scene::VolumeKey;
@@ -17,21 +17,6 @@ use crate::study::voxels::reserved;
 
 /// Memory of the search for bone, for each voxel.
 const SEARCH_BYTES: f64 = 3.0;
-
-#[derive(Debug, Default)]
-pub(crate) struct WithoutBone {
-    held: Option<HeldVolume>,
-    /// The lines whose voxels are kept.
-    lines: Vec<usize>,
-    is_shown: bool,
-}
-
-impl WithoutBone {
-    /// The volume without bone, while bone is hidden.
-    pub(crate) fn shown(&self) -> Option<&HeldVolume> {
-        self.held.as_ref().filter(|_| self.is_shown)
-    }
-}
 
 impl Study {
     /// Hides or shows bone around the vessels. No voxel of a listed line or of a sure vessel of the scan is hidden.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::study::contours::Contour;
+use crate::study::outlines::Contour;
 use crate::study::palette::next_color;
 use crate::study::tracing::StopperMessage;
 

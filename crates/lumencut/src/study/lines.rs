@@ -10,8 +10,8 @@ use lumencut_vessels::trace::clicks::Traced;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use serde::{Deserialize, Serialize};
 
-use crate::study::contours::Contour;
 use crate::study::failure::Result;
+use crate::study::outlines::Contour;
 
 /// A vessel line: its points, with radius, confidence and bridging of each point.
 #[derive(Clone, Debug, Default, PartialEq)]

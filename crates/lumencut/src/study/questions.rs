@@ -9,7 +9,7 @@ use crate::study::after_edit::{AfterEdit, FirstClick};
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::{AskedMessage, OpenedLines};
 use crate::study::content::Report;
-use crate::study::contours::{Contour, DrawnContour};
+use crate::study::contours::DrawnContour;
 use crate::study::document::{Document, DocumentVessel};
 use crate::study::doubts::{DoubtRow, doubt_rows};
 use crate::study::edits::EditMessage;
@@ -25,6 +25,7 @@ use crate::study::measure_messages::{
     SpotMessage, StretchMessage, VesselMessage,
 };
 use crate::study::open_study::{Picture, Study};
+use crate::study::outlines::Contour;
 use crate::study::picking::Pick;
 use crate::study::place_turn::PlaceTurn;
 use crate::study::planes::Plane;

@@ -15,12 +15,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::found_vessels::{self, FoundLine};
 use crate::study::content::{Listed, NamedTree};
-use crate::study::contours::drawn_outlines;
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
 use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
+use crate::study::outlines::drawn_outlines;
 
 /// Controls long work: stops it and receives its progress.
 #[derive(Clone, Copy)]

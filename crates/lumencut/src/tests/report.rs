@@ -1,6 +1,7 @@
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::section::flags::BRANCH;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
+use lumencut_vessels::measure::wall::WallSource;
 
 use super::*;
 use crate::measure_words::MILLIMETRE_ASSUMED;
@@ -218,6 +219,10 @@ fn how_it_was_measured_is_told() {
                  FWHM of the point spread 1.20 mm, given. Walls: not separated, as requested. 121 sections, of which 101 count; flags: branch 20, calcium 1. \
                  Contrast to noise 25, contrast 250 in the unit of the volume.";
     assert!(text.contains(words), "{text}");
+    let unknown = Profile { wall_source: WallSource::OtherUnit, ..tube() };
+    let page = page_of(&unknown, "LAD", &marked(None, &[]), None);
+    let text_of_unknown = html(&shown(), &[page]).expect("a report");
+    assert!(text_of_unknown.contains("contrast 250 in the unit of the volume."));
     assert!(text.contains(". Imaging: series, phase, slice thickness, kernel not stated. Settings"));
     assert!(text.contains(NOTICE));
 }

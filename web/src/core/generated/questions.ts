@@ -137,7 +137,6 @@ export type DrawnContour = {
   /** Arc length of the section; centre; radii (mm). */
   readonly contour: ReadonlyArray<number>;
   readonly points: ReadonlyArray<Vector>;
-  readonly grips: ReadonlyArray<Vector>;
   /** Diameter of the circle of the same area (mm). */
   readonly diameter: number;
   readonly shortest: number;

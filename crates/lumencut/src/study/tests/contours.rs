@@ -1,5 +1,8 @@
 use std::f64::consts::PI;
 
+use glam::DVec2;
+use lumencut_vessels::measure::profile::CONTOUR_POINTS;
+
 use super::*;
 use crate::study::lines::ListedLine;
 use crate::study::tests::opened;
