@@ -179,8 +179,7 @@ impl GpuRenderer {
         };
         let levels = self.tree.as_ref().map(|tree| &tree.on_device);
         let volume = self.volume.as_ref().map(|volume| &volume.on_device);
-        let around = self.around.as_ref().filter(|_| scene.context.is_some());
-        let around = around.map(|around| &around.on_device).or(volume);
+        let around = self.around.as_ref().map_or(volume, |around| Some(&around.on_device));
         self.device.write(&self.stages.view, &[ViewParameters::of(&geometry)]);
         Ok(Pass {
             device: &self.device,
@@ -204,8 +203,9 @@ impl GpuRenderer {
         if let Some(shared) = &scene.volume {
             ShownVolume::replace(&mut self.volume, &self.device, shared, request.stop)?;
         }
-        if let Some(shared) = &scene.context {
-            ShownVolume::replace(&mut self.around, &self.device, shared, request.stop)?;
+        match &scene.context {
+            Some(shared) => ShownVolume::replace(&mut self.around, &self.device, shared, request.stop)?,
+            None => self.around = None,
         }
         if let Some(tree) = &scene.tree {
             let settings = request.settings;

@@ -1,4 +1,4 @@
-//! Measures vessels beside calcium, metal, other vessels and branches, and lines without walls.
+//! Measures vessels next to calcium, metal, other vessels and branches, and lines without walls.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;

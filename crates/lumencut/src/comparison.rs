@@ -27,16 +27,17 @@ pub struct Compared<'a> {
 impl Compared<'_> {
     /// The comparison in sentences: doubts, changes, the typical difference, and how the vessels were matched.
     pub fn lines(&self) -> Vec<String> {
-        let changes = self.changes();
-        let none = format!("no change beyond {DEVIATIONS} standard deviations of both diameters");
-        let changes = if changes.is_empty() { vec![none] } else { changes };
         let typical = format!("median difference {} mm", signed(self.comparison.typical));
-        self.doubts.iter().cloned().chain(changes).chain([typical, self.matched()]).collect()
+        self.doubts.iter().cloned().chain(self.changes()).chain([typical, self.matched()]).collect()
     }
 
-    /// The changes, one sentence each.
+    /// The changes, one sentence each, or that there is none.
     pub fn changes(&self) -> Vec<String> {
-        self.comparison.changes.iter().map(change).collect()
+        let changes = &self.comparison.changes;
+        if changes.is_empty() {
+            return vec![format!("no change beyond {DEVIATIONS} standard deviations of both diameters")];
+        }
+        changes.iter().map(change).collect()
     }
 
     /// How the vessels were matched.

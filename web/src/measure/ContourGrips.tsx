@@ -12,7 +12,7 @@ import { engine } from '../worker/engine';
 import { unlessGone } from './asking';
 import { currentProfile, currentVessel } from './current';
 
-/** Every so many points of a contour is a grip. */
+/** Number of contour points from one grip to the next. */
 const GRIP_STEP = 4;
 const COLOR = '#00e5ff';
 

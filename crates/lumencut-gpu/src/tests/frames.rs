@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use lumencut_core::camera::Camera;
 use lumencut_core::error::ErrorKind;
+use lumencut_core::frame::Frame;
 use lumencut_core::math::leaps::LEAPS;
 use lumencut_core::pipeline::{CpuRenderer, Request};
-use lumencut_core::scene::Scene;
+use lumencut_core::scene::{Scene, SharedVolume, VolumeKey};
 use lumencut_core::settings::{
     Context, ContextFrom, Focus, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode,
 };
@@ -16,7 +17,7 @@ use lumencut_scenes::pictures::context_alone;
 use lumencut_scenes::views::{front, view};
 
 use super::both_sides::{BothSides, assert_same};
-use super::shared;
+use super::{shared, ties};
 use crate::on_cpu::on_either;
 use crate::renderer::GpuRenderer;
 
@@ -319,4 +320,30 @@ fn a_view_leaves_nothing_behind_for_the_next() {
         assert_eq!((&a.image, &a.context, &a.vessel), (&b.image, &b.context, &b.vessel));
         assert_eq!((a.depth(), &a.distance), (b.depth(), &b.distance));
     }
+}
+
+#[test]
+fn the_context_of_another_volume_leaves_the_cut_surface_alone() {
+    let Some(device) = shared() else { return };
+    let phantom = y_junction().unwrap();
+    let scan = Scene::new(phantom.volume().unwrap(), phantom.tree.clone());
+    let voxels: Vec<i16> = phantom.voxels.iter().map(|value| value * 9 - 20_000).collect();
+    let around = Phantom { voxels, ..phantom.clone() };
+    let context = SharedVolume::new(around.volume().unwrap(), VolumeKey::default());
+    let both = Scene { context: Some(context), ..scan.clone() };
+    let camera = view([0.3, 1.0, 0.2], SIZE, 0.8);
+    let settings = everything();
+    let request = Request::new(&camera, &settings);
+    let mut gpu = GpuRenderer::new(Arc::clone(device));
+    for (name, scene) in [("scan", &scan), ("both", &both), ("scan again", &scan)] {
+        println!("{name}");
+        let cpu = CpuRenderer::default().render(scene, &request).unwrap();
+        let mut frame = pollster::block_on(gpu.render(scene, &request)).unwrap();
+        ties::excuse(&mut frame, &cpu, &phantom.tree, &settings);
+        assert_same(&frame, &cpu);
+    }
+    let [alone, within] = [&scan, &both].map(|scene| CpuRenderer::default().render(scene, &request).unwrap());
+    let bits = |frame: &Frame| frame.value.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert!(bits(&alone) == bits(&within), "the cut shows the scan");
+    assert!(alone.context != within.context, "the context shows the other volume");
 }

@@ -54,12 +54,8 @@ fn page(vessel: &Compared) -> String {
 }
 
 fn findings(vessel: &Compared) -> String {
-    let changes = vessel.changes();
-    if changes.is_empty() {
-        let words = format!("No change beyond {DEVIATIONS} standard deviations of both diameters");
-        return paragraph("finding", &words);
-    }
-    changes.iter().map(|words| paragraph("finding", &(words[..1].to_uppercase() + &words[1..]))).collect()
+    let as_sentence = |words: &String| paragraph("finding", &(words[..1].to_uppercase() + &words[1..]));
+    vessel.changes().iter().map(as_sentence).collect()
 }
 
 fn table(vessel: &Compared) -> String {
