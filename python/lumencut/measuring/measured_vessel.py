@@ -125,8 +125,9 @@ class MeasuredVessel:
         lines = [] if self._grade is None else self._grade.lines
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
-        outer = self.profile._core.outer_stretch()
-        return [*self.profile.not_measured(), *([] if outer is None else [outer]), *lines]
+        core = self.profile._core
+        walls = [words for words in (core.outer_stretch(), core.flap_stretch()) if words is not None]
+        return [*self.profile.not_measured(), *walls, *lines]
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:
