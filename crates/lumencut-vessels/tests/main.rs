@@ -7,6 +7,7 @@ mod find_stops;
 mod lumens_on_ray;
 mod measure;
 mod measure_surroundings;
+mod flaps;
 mod outer_wall;
 mod throats;
 mod trace_clicks;

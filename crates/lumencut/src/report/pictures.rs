@@ -67,10 +67,11 @@ fn of_both(profile: &Profile, n: usize) -> f64 {
 /// The side of section pictures (mm) in which nearly all reliable sections fit.
 pub(crate) fn section_side(profile: &Profile) -> f64 {
     let mut diameters = longest_diameters(profile);
-    let both = profile.flap_stretch().map_or(0.0, |stretch| LUMENS_DIAMETERS * of_both(profile, stretch.widest));
+    let both =
+        profile.flap_stretch().map_or(0.0, |stretch| LUMENS_DIAMETERS * of_both(profile, stretch.widest));
     let outer = profile.outer_stretch().map_or(0.0, |stretch| OUTER_DIAMETERS * stretch.widest[1]);
-    let fitting =
-        quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).max(outer).max(both).ceil());
+    let fitting = quantile(&mut diameters, FITTING_QUANTILE)
+        .map(|wide| (SECTION_DIAMETERS * wide).max(outer).max(both).ceil());
     fitting.map_or(DEFAULT_SIDE_MM, |side| side.clamp(SECTION_SIDES_MM[0], SECTION_SIDES_MM[1]))
 }
 

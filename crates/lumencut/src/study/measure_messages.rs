@@ -2,8 +2,8 @@
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{
-    of_bounds_at, of_c_arm, of_doubts, of_flags, of_flap_stretch, of_lumens_at, of_outer_at, of_outer_stretch, of_source, of_stenosis,
-    of_wall,
+    of_bounds_at, of_c_arm, of_doubts, of_flags, of_flap_stretch, of_lumens_at, of_outer_at,
+    of_outer_stretch, of_source, of_stenosis, of_wall,
 };
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;

@@ -52,8 +52,7 @@ impl Basins {
         order.sort_by(|a, b| sheets[*a].max(0.0).total_cmp(&sheets[*b].max(0.0)).then(a.cmp(b)));
         let mut joined = Joined { parent: vec![NONE; sheets.len()], size: vec![1; sheets.len()] };
         for n in order {
-            let mut roots: Vec<usize> =
-                neighbors(n, smooth.count).filter_map(|m| joined.root(m)).collect();
+            let mut roots: Vec<usize> = neighbors(n, smooth.count).filter_map(|m| joined.root(m)).collect();
             roots.sort_by(|a, b| joined.size[*b].cmp(&joined.size[*a]).then(a.cmp(b)));
             roots.dedup();
             joined.parent[n] = n as u32;

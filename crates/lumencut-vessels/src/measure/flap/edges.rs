@@ -70,10 +70,8 @@ impl Rim<'_> {
     /// Mean of the values of a lumen over the first `LEVEL_MM` from `start` mm on, in the direction `way`.
     fn level(&self, start: DVec2, way: DVec2, lumen: u32) -> Option<f64> {
         let places = self.samples([0.0, LEVEL_MM]).map(|mm| start + way * mm);
-        let values: Vec<f64> = places
-            .take_while(|place| self.basin(*place) == lumen)
-            .map(|place| self.map.at(place))
-            .collect();
+        let values: Vec<f64> =
+            places.take_while(|place| self.basin(*place) == lumen).map(|place| self.map.at(place)).collect();
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     }
 

@@ -18,7 +18,7 @@ use lumencut_core::math::statistics::median;
 
 /// Lumen is brighter than the flap by this fraction of the contrast. Brighter values than the lumen by `CAPPED` count as that.
 const BRIGHT: f64 = 0.3;
-const CAPPED: f64 = 0.5;
+const CAPPED: f64 = 1.0;
 
 /// Lumens are searched up to this distance from the line (mm).
 const REACH_MM: f64 = 45.0;
@@ -40,14 +40,17 @@ const LEAST_SHEET: (f64, f64) = (2.5, 0.3);
 const LEAST_AREA: f64 = 12.0;
 const LEAST_WHOLE_MM: f64 = 12.0;
 
-/// The flap is at least as long as this fraction of the diameter of the smaller lumen.
-const LEAST_FLAP: f64 = 0.8;
+/// Area of values far brighter than lumen (mm²) from which metal hides the lumens.
+const METAL_AREA: f64 = 6.0;
+
+/// Minimum length of the flap, as a fraction of the diameter of the smaller lumen.
+const LEAST_FLAP: f64 = 1.0;
 
 /// Minimum area of the lumens and the flap together, as a fraction of that of their convex hull.
-const SOLID: f64 = 0.93;
+const SOLID: f64 = 0.9;
 
 /// Standard deviation of the position of all outer edges, and of all edges at the flap (blur widths).
-const EDGE_ERROR: [f64; 2] = [0.05, 0.08];
+const EDGE_ERROR: [f64; 2] = [0.025, 0.05];
 
 /// Neighbouring corners share noise.
 const SHARED_CORNERS: f64 = 5.0;
@@ -96,13 +99,14 @@ impl Search<'_, '_> {
         if own == NONE {
             return Err(Flap::Absent);
         }
-        let outlines = |basin: u32| outline(&map, &basins, basin);
-        let first = outlines(own);
+        let first = outline(&map, &basins, own);
         let other = behind(&map, &basins, own, &first).ok_or(Flap::Absent)?;
         if [own, other].iter().any(|basin| (basins.size(*basin) as f64) * step * step < LEAST_AREA) {
             return Err(Flap::Absent);
         }
-        if touches_border(&map, &basins, [own, other]) {
+        let second = outline(&map, &basins, other);
+        let is_open = |corner: &Corner| !map.holds(corner.at + corner.out * width);
+        if first.iter().chain(&second).any(is_open) {
             return Err(Flap::Open);
         }
         let interpolated = fwhm_of(self.blur.interpolated(self.place).determinant().sqrt());
@@ -112,9 +116,11 @@ impl Search<'_, '_> {
             let rim = Rim { map: &map, basins: &basins, lumens, dark, blur: [width, deviation], noise };
             Lumen::of(corners, &rim.edges(corners))
         };
-        let lumens = [lumen([own, other], &first), lumen([other, own], &outlines(other))];
+        let lumens = [lumen([own, other], &first), lumen([other, own], &second)];
         let [Some(a), Some(b)] = lumens else { return Err(Flap::Open) };
-        self.judged([a, b], width)
+        let pair = self.judged([a, b], width)?;
+        let hides = is_metal(&map, &basins, [own, other], self.levels.at(1.0 + CAPPED));
+        if hides { Err(Flap::Metal) } else { Ok(pair) }
     }
 
     /// How far lumens reach from the line (mm); None if there is nothing behind something dark.
@@ -141,7 +147,7 @@ impl Search<'_, '_> {
                 is_beyond |= value < darker;
                 if value > bright {
                     last = at;
-                    behind += if is_beyond && value > darker { step } else { 0.0 };
+                    behind += if is_beyond { step } else { 0.0 };
                 }
             }
             farthest = farthest.max(last);
@@ -208,7 +214,8 @@ impl Lumen {
     /// Distance of neighbouring corners (mm).
     fn spacing(&self) -> f64 {
         let count = self.corners.len();
-        (0..count).map(|n| self.corners[n].distance(self.corners[(n + 1) % count])).sum::<f64>() / count as f64
+        (0..count).map(|n| self.corners[n].distance(self.corners[(n + 1) % count])).sum::<f64>()
+            / count as f64
     }
 
     /// Length and median thickness of the flap (mm).
@@ -246,8 +253,9 @@ fn behind(map: &PlaneMap, basins: &Basins, own: u32, corners: &[Corner]) -> Opti
     all.iter().copied().max_by_key(|basin| (count(*basin), *basin))
 }
 
-fn touches_border(map: &PlaneMap, basins: &Basins, lumens: [u32; 2]) -> bool {
-    let count = map.count;
-    let is_border = |n: &usize| n % count == 0 || n % count == count - 1 || n / count == 0 || n / count == count - 1;
-    (0..count * count).filter(is_border).any(|n| lumens.contains(&basins.of[n]))
+/// Whether the lumens hold metal, whose values count as `most`.
+fn is_metal(map: &PlaneMap, basins: &Basins, lumens: [u32; 2], most: f64) -> bool {
+    let is_lumen = |n: &usize| lumens.contains(&basins.of[*n]);
+    let capped = (0..basins.of.len()).filter(is_lumen).filter(|n| map.values[*n] > 0.999 * most).count();
+    capped as f64 * map.step * map.step > METAL_AREA
 }

@@ -15,20 +15,18 @@ pub(crate) struct PlaneMap {
     pub step: f64,
     pub count: usize,
     pub values: Vec<f64>,
+    /// Which values lie outside the volume.
+    is_outside: Vec<bool>,
 }
 
 impl PlaneMap {
     /// Reads the values up to `reach` mm from the centerline, `step` mm apart. Those above `most`, and those outside the
     /// volume, become `most`.
-    pub(crate) fn read(
-        voxels: &Voxels,
-        place: &SectionPlane,
-        [reach, step]: [f64; 2],
-        most: f64,
-    ) -> Self {
+    pub(crate) fn read(voxels: &Voxels, place: &SectionPlane, [reach, step]: [f64; 2], most: f64) -> Self {
         let half = (reach / step).ceil() as usize;
         let count = 2 * half + 1;
-        let mut map = Self { step, count, values: vec![0.0; count * count] };
+        let mut map =
+            Self { step, count, values: vec![0.0; count * count], is_outside: vec![false; count * count] };
         let stride = voxels.index_from_world.transform_vector3(place.axes[0] * step);
         let mut read = Vec::with_capacity(count + 16);
         for j in 0..count {
@@ -39,9 +37,10 @@ impl PlaneMap {
                 while read.len() < count {
                     voxels.along(voxels.index_from_world.transform_point3(start), stride, &mut read);
                 }
-                for (sum, value) in map.values[j * count..][..count].iter_mut().zip(&read) {
+                for (n, value) in (j * count..).zip(&read[..count]) {
                     let value = f64::from(*value);
-                    *sum += weight * if value < most { value } else { most };
+                    map.values[n] += weight * if value < most { value } else { most };
+                    map.is_outside[n] |= value.is_nan();
                 }
             }
         }
@@ -59,6 +58,11 @@ impl PlaneMap {
         let at = (place / self.step).round() + DVec2::splat((self.count / 2) as f64);
         let is_inside = |x: f64| x >= 0.0 && x < self.count as f64;
         (is_inside(at.x) && is_inside(at.y)).then(|| at.y as usize * self.count + at.x as usize)
+    }
+
+    /// Whether a place (mm) lies in the map and in the volume.
+    pub(crate) fn holds(&self, place: DVec2) -> bool {
+        self.nearest(place).is_some_and(|n| !self.is_outside[n])
     }
 
     /// Value at a place (mm), interpolated; at the border that of the border.
@@ -95,7 +99,7 @@ impl PlaneMap {
             smooth
         };
         let rows = pass(&self.values, 1, self.count);
-        Self { values: pass(&rows, self.count, 1), ..*self }
+        Self { values: pass(&rows, self.count, 1), ..self.clone() }
     }
 
     /// The largest second derivative in any direction (per mm²): positive along dark sheets; 0 at the border.
@@ -108,7 +112,8 @@ impl PlaneMap {
                 let middle = 2.0 * at(1, 1);
                 let (xx, yy) = (at(0, 1) + at(2, 1) - middle, at(1, 0) + at(1, 2) - middle);
                 let xy = 0.25 * (at(0, 0) + at(2, 2) - at(0, 2) - at(2, 0));
-                found[j * count + i] = (0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)) / (self.step * self.step);
+                found[j * count + i] =
+                    (0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)) / (self.step * self.step);
             }
         }
         found
