@@ -68,7 +68,7 @@ def test_tables_give_back_the_numbers_to_seven_digits(branched, tmp_path):
 def test_every_column_of_a_length_states_its_unit(profile):
     (head,) = csv.reader([csv_text(profile).partition("\n")[0]])
     without = {"counts", "flags", "fwhm_source", "wall_source", "lumen_level", "background_level"}
-    without |= {"outer_wall"}
+    without |= {"outer_wall", "flap"}
     without |= {f"normal_{axis}_lps" for axis in "xyz"}
     without |= {"series_number", "series_description", "phase", "kernel"}
     assert {name for name in head if not name.endswith(("_mm", "_mm2"))} == without

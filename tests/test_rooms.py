@@ -43,6 +43,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "measure::fit",
     ),
     "measure::outer": ("voxels", "measure::section"),
+    "measure::flap": ("voxels", "measure::section", "measure::estimation", "measure::outer"),
     "measure::profile": (
         "voxels",
         "measure::section",
@@ -54,6 +55,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "measure::wall",
         "measure::along",
         "measure::outer",
+        "measure::flap",
     ),
     "measure::stenosis": ("measure::section", "measure::uncertainty", "measure::profile"),
     "measure::comparison": ("measure::section", "measure::profile", "measure::stenosis"),

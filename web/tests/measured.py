@@ -74,6 +74,8 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "not_measured": [],
         "outer_stretch": profile._core.outer_stretch(),
         "outer": outer(profile),
+        "flap_stretch": profile._core.flap_stretch(),
+        "lumens": [profile._core.lumens_at(n) for n in range(len(profile))],
     }
 
 

@@ -35,6 +35,8 @@ export function madeProfile(length = 60): Profile {
     not_measured: [],
     outer_stretch: null,
     outer: places.map(() => null),
+    flap_stretch: null,
+    lumens: places.map(() => null),
   };
 }
 

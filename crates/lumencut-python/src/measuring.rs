@@ -107,6 +107,12 @@ impl Profile {
             ("diameter_calcium_excluded", first(&profile.bounds)),
             ("diameter_calcium_included", second(&profile.bounds)),
             ("diameter_at_most", array(&profile.at_most)),
+            ("area_own_lumen", first(&profile.area_own_lumen)),
+            ("area_own_lumen_uncertainty", second(&profile.area_own_lumen)),
+            ("area_other_lumen", first(&profile.area_other_lumen)),
+            ("area_other_lumen_uncertainty", second(&profile.area_other_lumen)),
+            ("area_both_lumens", first(&profile.area_both_lumens())),
+            ("area_both_lumens_uncertainty", second(&profile.area_both_lumens())),
             ("diameter_outer", first(&profile.diameter_outer)),
             ("diameter_outer_uncertainty", second(&profile.diameter_outer)),
         ]
@@ -170,6 +176,33 @@ impl Profile {
     #[getter]
     fn outer_contour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         contours(py, &self.0.outer_contour)
+    }
+
+    /// Points of the lumen of the line (mm, LPS), shape (n, rays, 3); NaN if no flap is seen.
+    #[getter]
+    fn own_lumen<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        contours(py, &self.0.own_lumen)
+    }
+
+    /// Points of the lumen behind a flap (mm, LPS), shape (n, rays, 3); NaN if not seen.
+    #[getter]
+    fn other_lumen<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        contours(py, &self.0.other_lumen)
+    }
+
+    /// Whether both lumens of a dissected vessel are seen, or why not, in words.
+    #[getter]
+    fn flap(&self) -> Vec<&'static str> {
+        self.0.flap.iter().map(|one| measure_words::of_flap(*one)).collect()
+    }
+
+    /// The longest stretch with a flap, in words.
+    fn flap_stretch(&self) -> Option<String> {
+        measure_words::of_flap_stretch(&self.0)
+    }
+
+    fn lumens_at(&self, n: usize) -> Option<String> {
+        measure_words::of_lumens_at(&self.0, n)
     }
 
     /// Whether the outside of a thick wall is seen, or why not, in words.

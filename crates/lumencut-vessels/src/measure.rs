@@ -1,13 +1,14 @@
 //! Measures the lumen of a vessel, as described in `docs/method/measuring.md`. Each module uses only those listed
 //! before it: `section` (planes and their voxels), `beside` (calcium, metal and other vessels), `estimation`,
 //! `model` (the blurred lumen), `uncertainty`, `fit` (one section), `wall`, `along` (what sections share), `outer` (thick
-//! walls), `profile` (the result), `stenosis`, `comparison` (of two scans).
+//! walls), `flap` (two lumens), `profile` (the result), `stenosis`, `comparison` (of two scans).
 
 pub(crate) mod along;
 pub(crate) mod beside;
 pub mod comparison;
 pub(crate) mod estimation;
 pub(crate) mod fit;
+pub mod flap;
 pub mod model;
 pub mod outer;
 pub mod profile;

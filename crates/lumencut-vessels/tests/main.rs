@@ -5,6 +5,7 @@ mod find_from_seed;
 mod find_one_vessel;
 mod find_phantoms;
 mod find_stops;
+mod flaps;
 mod lumens_on_ray;
 mod measure;
 mod measure_disturbed;

@@ -1,6 +1,7 @@
 //! States measurements in words, which Python package and viewer share.
 
 use lumencut_core::named::Named;
+use lumencut_vessels::measure::flap::found::Flap;
 use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::Source;
@@ -128,6 +129,38 @@ pub fn of_outer_wall(outer: OuterWall) -> &'static str {
         OuterWall::Uneven => "not similar over 5 mm",
         OuterWall::NoLevel => "the level of thrombus is unknown",
     }
+}
+
+/// Whether both lumens of a dissected vessel are visible, or why not.
+pub fn of_flap(flap: Flap) -> &'static str {
+    match flap {
+        Flap::Seen => "seen",
+        Flap::Absent => "no flap parts the lumen",
+        Flap::Metal => "metal hides it",
+        Flap::Open => "a lumen is not enclosed",
+        Flap::Uneven => "not similar over 10 mm",
+        Flap::NoLevel => "the level of the flap is unknown",
+    }
+}
+
+/// The areas of both lumens of section `n` if a flap is visible, such as
+/// `line's lumen 120 ± 3 mm², other 300 ± 5 mm², both 420 ± 8 mm²`.
+pub fn of_lumens_at(profile: &Profile, n: usize) -> Option<String> {
+    let own = profile.area_own_lumen[n];
+    let other = profile.area_other_lumen[n];
+    let [own, other, both] = [own, other, profile.area_both_lumens()[n]]
+        .map(|[area, unsure]| format!("{} ± {} mm²", fixed(area, 0), fixed(unsure, 0)));
+    let is_seen = profile.flap[n] == Flap::Seen;
+    is_seen.then(|| format!("line's lumen {own}, other {other}, both {both}"))
+}
+
+/// The longest stretch that shows both lumens of a dissected vessel, in one sentence.
+pub fn of_flap_stretch(profile: &Profile) -> Option<String> {
+    let stretch = profile.flap_stretch()?;
+    let [from, to] = stretch.ends.map(|mm| fixed(mm, 1));
+    let widest = fixed(profile.arc_length[stretch.widest], 1);
+    let lumens = of_lumens_at(profile, stretch.widest)?;
+    Some(format!("Flap from {from} to {to} mm; at {widest} mm, where it is widest: {lumens}."))
 }
 
 /// The outer wall of the longest stretch that shows it around thrombus or plaque, in one sentence.

@@ -1,6 +1,7 @@
 //! Converts the columns of a profile to and from plain numbers.
 
 use glam::DVec3;
+use lumencut_vessels::measure::flap::found::Flap;
 use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::uncertainty::Parts;
@@ -15,10 +16,11 @@ pub(crate) enum Column<'a> {
     PointPairs(&'a mut Vec<[DVec3; 2]>),
     Contours(&'a mut Vec<Vec<DVec3>>),
     OuterWalls(&'a mut Vec<OuterWall>),
+    Flaps(&'a mut Vec<Flap>),
 }
 
 /// The columns of a profile by name, except its flags.
-pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 24] {
+pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 29] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
         ("diameter_min", Column::Numbers(&mut profile.diameter_min)),
@@ -30,6 +32,11 @@ pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 24]
         ("diameter_outer", Column::Pairs(&mut profile.diameter_outer)),
         ("outer_wall", Column::OuterWalls(&mut profile.outer_wall)),
         ("outer_contour", Column::Contours(&mut profile.outer_contour)),
+        ("flap", Column::Flaps(&mut profile.flap)),
+        ("own_lumen", Column::Contours(&mut profile.own_lumen)),
+        ("other_lumen", Column::Contours(&mut profile.other_lumen)),
+        ("area_own_lumen", Column::Pairs(&mut profile.area_own_lumen)),
+        ("area_other_lumen", Column::Pairs(&mut profile.area_other_lumen)),
         ("bounds", Column::Pairs(&mut profile.bounds)),
         ("at_most", Column::Numbers(&mut profile.at_most)),
         ("center", Column::Points(&mut profile.center)),
@@ -57,6 +64,7 @@ impl Column<'_> {
             Self::Points(points) => flat(points),
             Self::PointPairs(pairs) => flat(pairs.as_flattened()),
             Self::OuterWalls(all) => all.iter().map(|one| *one as usize as f64).collect(),
+            Self::Flaps(all) => all.iter().map(|one| *one as usize as f64).collect(),
             Self::Contours(lists) => {
                 lists.iter().flat_map(|points| [vec![points.len() as f64], flat(points)].concat()).collect()
             }
@@ -77,6 +85,10 @@ impl Column<'_> {
             Self::PointPairs(pairs) => *pairs = groups::<_, 2>(&points_of(numbers)?)?.to_vec(),
             Self::OuterWalls(all) => {
                 let known = |number: &f64| OuterWall::ALL.get(whole(*number)?).copied();
+                *all = numbers.iter().map(known).collect::<Option<_>>()?;
+            }
+            Self::Flaps(all) => {
+                let known = |number: &f64| Flap::ALL.get(whole(*number)?).copied();
                 *all = numbers.iter().map(known).collect::<Option<_>>()?;
             }
             Self::Contours(lists) => *lists = lists_of(numbers)?,
@@ -134,6 +146,11 @@ pub(crate) fn empty() -> Profile {
         diameter_outer: Vec::new(),
         outer_wall: Vec::new(),
         outer_contour: Vec::new(),
+        flap: Vec::new(),
+        own_lumen: Vec::new(),
+        other_lumen: Vec::new(),
+        area_own_lumen: Vec::new(),
+        area_other_lumen: Vec::new(),
         bounds: Vec::new(),
         at_most: Vec::new(),
         flags: Vec::new(),
@@ -155,7 +172,7 @@ pub(crate) fn empty() -> Profile {
 }
 
 /// The numbers of sections of all columns, which are equal in a profile.
-pub(crate) fn lengths(profile: &Profile) -> [usize; 21] {
+pub(crate) fn lengths(profile: &Profile) -> [usize; 26] {
     [
         profile.arc_length.len(),
         profile.diameter_min.len(),
@@ -167,6 +184,11 @@ pub(crate) fn lengths(profile: &Profile) -> [usize; 21] {
         profile.diameter_outer.len(),
         profile.outer_wall.len(),
         profile.outer_contour.len(),
+        profile.flap.len(),
+        profile.own_lumen.len(),
+        profile.other_lumen.len(),
+        profile.area_own_lumen.len(),
+        profile.area_other_lumen.len(),
         profile.bounds.len(),
         profile.at_most.len(),
         profile.flags.len(),

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
 
-use crate::measure_words::{of_doubts, of_flags, of_outer_wall, of_source, of_wall};
+use crate::measure_words::{of_doubts, of_flags, of_flap, of_outer_wall, of_source, of_wall};
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Mark, Measured, REFERENCE, marks};
@@ -219,6 +219,7 @@ impl Suggestions {
 struct Sections {
     numbers: Vec<(&'static str, Vec<f64>)>,
     outer_wall: Vec<&'static str>,
+    flap: Vec<&'static str>,
     counts: Vec<bool>,
     flags: Vec<Vec<String>>,
 }
@@ -228,6 +229,7 @@ impl Sections {
         Self {
             numbers: columns(profile).into_iter().chain(axes(profile)).collect(),
             outer_wall: profile.outer_wall.iter().map(|one| of_outer_wall(*one)).collect(),
+            flap: profile.flap.iter().map(|one| of_flap(*one)).collect(),
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
         }
@@ -249,6 +251,7 @@ impl Serialize for Sections {
             map.serialize_entry(name, values)?;
         }
         map.serialize_entry("outer_wall", &self.outer_wall)?;
+        map.serialize_entry("flap", &self.flap)?;
         map.serialize_entry("counts", &self.counts)?;
         map.serialize_entry("flags", &self.flags)?;
         map.end()

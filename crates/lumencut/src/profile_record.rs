@@ -116,8 +116,8 @@ fn check(profile: &Profile) -> Result<()> {
         return Err(damaged(format!("a point spread of {} mm", profile.fwhm)));
     }
     let is_contour = |points: &Vec<DVec3>| [0, CONTOUR_POINTS].contains(&points.len());
-    if let Some(odd) = profile.contour.iter().chain(&profile.outer_contour).find(|points| !is_contour(points))
-    {
+    let lumens = profile.contour.iter().chain(&profile.own_lumen).chain(&profile.other_lumen);
+    if let Some(odd) = lumens.chain(&profile.outer_contour).find(|points| !is_contour(points)) {
         return Err(damaged(format!("a contour of {} points", odd.len())));
     }
     let known = FLAGS.iter().fold(0, |bits, flag| bits | flag.bit);

@@ -4,7 +4,7 @@ use lumencut_io::marked_cell;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::uncertainty::Part;
 
-use crate::measure_words::{of_doubts, of_flags, of_outer_wall, of_source, of_stenosis, of_wall};
+use crate::measure_words::{of_doubts, of_flags, of_flap, of_outer_wall, of_source, of_stenosis, of_wall};
 use crate::profile_marks::{Grade, Measured};
 use crate::scan_details::ScanDetails;
 use crate::text::rounded;
@@ -56,6 +56,12 @@ pub(crate) fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
         ("diameter_at_most_mm", profile.at_most.clone()),
         ("diameter_outer_mm", both(&profile.diameter_outer, 0)),
         ("diameter_outer_uncertainty_mm", both(&profile.diameter_outer, 1)),
+        ("area_own_lumen_mm2", both(&profile.area_own_lumen, 0)),
+        ("area_own_lumen_uncertainty_mm2", both(&profile.area_own_lumen, 1)),
+        ("area_other_lumen_mm2", both(&profile.area_other_lumen, 0)),
+        ("area_other_lumen_uncertainty_mm2", both(&profile.area_other_lumen, 1)),
+        ("area_both_lumens_mm2", both(&profile.area_both_lumens(), 0)),
+        ("area_both_lumens_uncertainty_mm2", both(&profile.area_both_lumens(), 1)),
     ]
 }
 
@@ -100,6 +106,7 @@ fn csv_text(blocks: &[Block]) -> String {
             let own = found.iter().map(|(name, _)| (*name).to_owned());
             let last = [
                 "outer_wall",
+                "flap",
                 "counts",
                 "flags",
                 "fwhm_mm",
@@ -120,10 +127,11 @@ fn csv_text(blocks: &[Block]) -> String {
     text
 }
 
-fn words(profile: &Profile, n: usize) -> [String; 7] {
+fn words(profile: &Profile, n: usize) -> [String; 8] {
     let counts = if profile.counts(n) { "yes" } else { "no" };
     [
         of_outer_wall(profile.outer_wall[n]).to_owned(),
+        of_flap(profile.flap[n]).to_owned(),
         counts.to_owned(),
         of_flags(profile.flags[n]).join("; "),
         rounded(profile.fwhm, DIGITS),

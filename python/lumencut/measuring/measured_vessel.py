@@ -131,10 +131,10 @@ class MeasuredVessel:
         lines = [] if self._grade is None else self._grade.lines
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
-        outer = self.profile._core.outer_stretch()
-        suggested = self._suggested_name
+        core, suggested = self.profile._core, self._suggested_name
         named = [] if suggested is None else [f"suggested name: {suggested}?"]
-        return [*named, *self.profile.not_measured(), *([] if outer is None else [outer]), *lines]
+        walls = [words for words in (core.outer_stretch(), core.flap_stretch()) if words is not None]
+        return [*named, *self.profile.not_measured(), *walls, *lines]
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:

@@ -37,6 +37,7 @@ class ProfileNumbers:
         self._axes = _locked(core.axes)
         self._contour, self._levels = _locked(core.contour), _locked(core.levels)
         self._outer_contour = _locked(core.outer_contour)
+        self._own_lumen, self._other_lumen = _locked(core.own_lumen), _locked(core.other_lumen)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state to copy or pickle: plain values by stable names."""
@@ -200,6 +201,51 @@ class ProfileNumbers:
     def outer_wall(self) -> list[str]:
         """For each section ``"seen"`` if :attr:`outer_contour` is, otherwise the reason why it is not."""
         return self._core.outer_wall
+
+    @property
+    def own_lumen(self) -> _Floats:
+        """The lumen of the line where a flap is seen, shape (n, 64, 3), mm, LPS; otherwise NaN."""
+        return self._own_lumen
+
+    @property
+    def other_lumen(self) -> _Floats:
+        """The lumen behind the flap, shape (n, 64, 3), mm, LPS; NaN where it is not seen."""
+        return self._other_lumen
+
+    @property
+    def flap(self) -> list[str]:
+        """For each section ``"seen"`` if both lumens are, otherwise the reason why they are not."""
+        return self._core.flap
+
+    @property
+    def area_own_lumen(self) -> _Floats:
+        """The area within :attr:`own_lumen`, shape (n,), mm²; otherwise NaN."""
+        return self._numbers["area_own_lumen"]
+
+    @property
+    def area_own_lumen_uncertainty(self) -> _Floats:
+        """The standard deviation of :attr:`area_own_lumen`, shape (n,), mm²."""
+        return self._numbers["area_own_lumen_uncertainty"]
+
+    @property
+    def area_other_lumen(self) -> _Floats:
+        """The area within :attr:`other_lumen`, shape (n,), mm²; otherwise NaN."""
+        return self._numbers["area_other_lumen"]
+
+    @property
+    def area_other_lumen_uncertainty(self) -> _Floats:
+        """The standard deviation of :attr:`area_other_lumen`, shape (n,), mm²."""
+        return self._numbers["area_other_lumen_uncertainty"]
+
+    @property
+    def area_both_lumens(self) -> _Floats:
+        """The areas of both lumens together, without the flap, shape (n,), mm²; otherwise NaN."""
+        return self._numbers["area_both_lumens"]
+
+    @property
+    def area_both_lumens_uncertainty(self) -> _Floats:
+        """The standard deviation of :attr:`area_both_lumens`, shape (n,), mm²."""
+        return self._numbers["area_both_lumens_uncertainty"]
 
     @property
     def levels(self) -> _Floats:

@@ -20,6 +20,8 @@ from lumencut.scene.window import Window
 #: Colours of contours: of sections that count, and of all others.
 _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
 _OUTER = (255, 90, 208, 255)
+#: The lumen of the line and the other one behind a flap.
+_OWN_LUMEN, _OTHER_LUMEN = (90, 230, 120, 255), (178, 140, 255, 255)
 
 #: Contours are drawn this many times larger and then scaled down, for smooth edges.
 _FINER = 3
@@ -49,7 +51,7 @@ class SectionView:
         """Return one section (H, W, 4): the measured plane, the contour, numbers with units, a scale.
 
         The contour is cyan if the section counts for narrowest and widest places, orange if flags exclude it;
-        a dashed pink one is the outer wall. Without contours there are no numbers. `words` stand above them.
+        a dashed pink one is the outer wall; green and violet are both lumens at a flap. Without contours there are no numbers. `words` stand above them.
         """
         profile, spacing = one.profile, _lumencut.section_spacing(one.profile._core, self.side)
         origin, across = profile.center[number], profile.axes[number]
@@ -63,9 +65,14 @@ class SectionView:
         if np.isfinite(contour).all():
             color = _COUNTED if counts(profile)[number] else _LEFT_OUT
             picture = _with_line(picture, contour, color)
-        outer = (profile.outer_contour[number] - origin) @ across.T / spacing + (self.side - 1) / 2
-        if np.isfinite(outer).all():
-            picture = _with_line(picture, outer, _OUTER, is_dashed=True)
+        for points, color in (
+            (profile.outer_contour, _OUTER),
+            (profile.own_lumen, _OWN_LUMEN),
+            (profile.other_lumen, _OTHER_LUMEN),
+        ):
+            line = (points[number] - origin) @ across.T / spacing + (self.side - 1) / 2
+            if np.isfinite(line).all():
+                picture = _with_line(picture, line, color, is_dashed=color == _OUTER)
         return _labelled(picture, profile, number, words, spacing)
 
 
@@ -138,8 +145,9 @@ def _labelled(picture: Picture, profile: Profile, number: int, words: str, spaci
         lines.append("no lumen found")
     else:
         lines += [f"{profile.diameter_equivalent[number]:.2f} mm ({short:.2f} to {long:.2f})"]
-    outer = profile._core.outer_at(number)
+    outer, lumens = profile._core.outer_at(number), profile._core.lumens_at(number)
     lines += [] if outer is None else [outer]
+    lines += [] if lumens is None else _wrapped(sheet, lumens)
     lines += _wrapped(sheet, ", ".join(flag_words(int(profile.flags[number]))))
     for n, line in enumerate(lines):
         sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))

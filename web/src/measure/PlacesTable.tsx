@@ -47,12 +47,13 @@ export function PlacesTable({ profile }: ProfileProps) {
   );
 }
 
-/** The outer wall, and parts of the vessel that could not be measured, with a button to cut the vessel there. */
+/** The outer wall, both lumens at a flap, and parts of the vessel that could not be measured, with a button to cut the vessel there. */
 function NotMeasured({ profile }: ProfileProps) {
   const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
   return (
     <>
       {profile.outer_stretch && <p data-testid="outer-wall">{withKnownUnits(profile.outer_stretch)}</p>}
+      {profile.flap_stretch && <p data-testid="flap">{withKnownUnits(profile.flap_stretch)}</p>}
       {profile.not_measured.map(({ cut_mm: at, words }) => (
         <p key={at} class="refused" data-testid="not-measured">
           {withKnownUnits(words)}{' '}

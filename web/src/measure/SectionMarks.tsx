@@ -12,7 +12,13 @@ import { nearestSection, sectionNumbers } from './sections';
 import { area, doubtWords, meanings, mm, spread, withKnownUnits } from './words';
 
 /** Contour colours, as in the pictures of `lumencut measure`. */
-export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a', outer: '#ff5ad0' } as const;
+export const CONTOUR = {
+  counts: '#00e5ff',
+  leftOut: '#ff9f1a',
+  outer: '#ff5ad0',
+  own: '#5ae678',
+  other: '#b28cff',
+} as const;
 /** The flag of contours drawn by hand. */
 const BY_HAND = 'by hand';
 const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
@@ -20,6 +26,23 @@ const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
 interface Found {
   readonly line: LineId;
   readonly section: MeasuredSection;
+}
+
+interface Contour {
+  readonly points: readonly Vector[];
+  readonly color: string;
+  readonly isDashed: boolean;
+}
+
+/** The contours of a section: its lumen, the outer wall, and both lumens at a flap. */
+export function contours(section: MeasuredSection, counts: boolean): readonly Contour[] {
+  const all = [
+    { points: section.contour, color: counts ? CONTOUR.counts : CONTOUR.leftOut, isDashed: false },
+    { points: section.outer_contour, color: CONTOUR.outer, isDashed: true },
+    { points: section.own_lumen, color: CONTOUR.own, isDashed: false },
+    { points: section.other_lumen, color: CONTOUR.other, isDashed: false },
+  ];
+  return all.filter(({ points }) => points.length > 0);
 }
 
 export function SectionMarks({ plane }: { readonly plane: Plane }) {
@@ -44,26 +67,23 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
   const numbers = sectionNumbers(profile, at);
   // The section may have moved while its contour was requested.
   const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
-  const outer = profile.outer[nearestSection(profile, at)];
+  const [outer, lumens] = [profile.outer, profile.lumens].map((words) => words[nearestSection(profile, at)]);
   const section = isShown ? found?.section : null;
   const pulled = pulledContour.value;
-  const contour = pulled?.points ?? section?.contour ?? [];
+  const shown = section ? contours({ ...section, contour: pulled?.points ?? section.contour }, numbers.counts) : [];
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
   return (
     <>
-      {section && contour.length > 0 && (
+      {section && shown.length > 0 && (
         <svg class="section-marks" width={plane.size[0]} height={plane.size[1]} aria-hidden="true">
-          <path
-            d={`M${pixels(contour).join('L')}Z`}
-            stroke={numbers.counts ? CONTOUR.counts : CONTOUR.leftOut}
-          />
-          {section.outer_contour.length > 0 && (
+          {shown.map(({ points, color, isDashed }) => (
             <path
-              d={`M${pixels(section.outer_contour).join('L')}Z`}
-              stroke={CONTOUR.outer}
-              stroke-dasharray="4 3"
+              key={color}
+              d={`M${pixels(points).join('L')}Z`}
+              stroke={color}
+              stroke-dasharray={isDashed ? '4 3' : undefined}
             />
-          )}
+          ))}
           {!pulled && section.longest && (
             <path d={`M${pixels(section.longest).join('L')}`} stroke={AXES.longest} />
           )}
@@ -79,6 +99,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <div style={{ color: AXES.longest }}>{`longest ${mm((pulled ?? numbers).longest)}`}</div>
         <div>{`area ${area((pulled ?? numbers).area)}`}</div>
         {outer && <div style={{ color: CONTOUR.outer }}>{withKnownUnits(outer)}</div>}
+        {lumens && <div style={{ color: CONTOUR.own }}>{withKnownUnits(lumens)}</div>}
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
         {numbers.flags.length > 0 && (
           <div title={meanings(profile, numbers.flags)}>{doubtWords(numbers).join(', ')}</div>

@@ -18,7 +18,7 @@ import type {
 import { pixelOn } from '../core/planes';
 import { lyingPicture } from '../measure/layout';
 import { colorOfPlace } from '../measure/PlaceHandles';
-import { CONTOUR } from '../measure/SectionMarks';
+import { contours } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -105,26 +105,18 @@ export async function sectionPair(
   const pixels = pixelsOf(picture);
   context.putImageData(pixels, 0, 0);
   context.putImageData(pixels, SIDE, 0);
-  const points = section.contour.map((point) => pixelOn(plane, point));
-  context.beginPath();
-  for (const [x, y] of points) {
-    context.lineTo(x + 0.5, y + 0.5);
-  }
-  context.closePath();
   context.lineWidth = 2.5;
-  context.strokeStyle = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
-  context.stroke();
-  if (section.outer_contour.length > 0) {
+  for (const { points, color, isDashed } of contours(section, profile.counts[number] === true)) {
     context.beginPath();
-    for (const [x, y] of section.outer_contour.map((point) => pixelOn(plane, point))) {
+    for (const [x, y] of points.map((point) => pixelOn(plane, point))) {
       context.lineTo(x + 0.5, y + 0.5);
     }
     context.closePath();
-    context.setLineDash([8, 6]);
-    context.strokeStyle = CONTOUR.outer;
+    context.setLineDash(isDashed ? [8, 6] : []);
+    context.strokeStyle = color;
     context.stroke();
-    context.setLineDash([]);
   }
+  context.setLineDash([]);
   const { bar, letters } = await engine.ask('labels', { ...plane, width: SIDE });
   const { spacing: hasSpacing, orientation } = store.states.value;
   for (const left of [0, SIDE]) {

@@ -23,7 +23,7 @@ use lumencut_core::stop::{Stop, go_on};
 const LEAST_LENGTH_MM: f64 = 5.0;
 
 /// Maximum gap within that length (mm).
-const GAP_MM: f64 = 2.0;
+pub(crate) const GAP_MM: f64 = 2.0;
 
 /// Maximum relative difference of a diameter from the median within `LEAST_LENGTH_MM`.
 const SIMILAR: f64 = 0.1;
@@ -63,25 +63,31 @@ pub(crate) fn outer_walls(
 }
 
 fn leave_out_uneven(at: &[f64], found: &mut [Outer]) {
-    let is_uneven = |n: usize| {
-        let near = |m: &usize| (at[*m] - at[n]).abs() <= LEAST_LENGTH_MM;
-        let around = (0..at.len()).filter(near).map(|m| found[m].diameter[0]);
-        let middle = median(&mut around.filter(|diameter| diameter.is_finite()).collect::<Vec<f64>>());
-        middle.is_some_and(|middle| (found[n].diameter[0] / middle - 1.0).abs() > SIMILAR)
-    };
-    let uneven: Vec<usize> = (0..found.len()).filter(|n| is_uneven(*n)).collect();
-    for n in uneven {
-        found[n] = Outer::none(OuterWall::Uneven);
+    let diameters: Vec<f64> = found.iter().map(|one| one.diameter[0]).collect();
+    let uneven = is_uneven(at, &diameters, (LEAST_LENGTH_MM, SIMILAR, GAP_MM));
+    for (one, _) in found.iter_mut().zip(uneven).filter(|(_, is_uneven)| *is_uneven) {
+        *one = Outer::none(OuterWall::Uneven);
     }
-    let seen: Vec<usize> = (0..found.len()).filter(|n| found[*n].found == OuterWall::Seen).collect();
-    for run in seen.chunk_by(|a, b| at[*b] - at[*a] <= GAP_MM) {
-        let length = run.last().map_or(0.0, |last| at[*last] - at[run[0]]);
-        if length < LEAST_LENGTH_MM {
-            for n in run {
-                found[*n] = Outer::none(OuterWall::Uneven);
-            }
+}
+
+/// Which diameters differ from the median within `length` mm by more than the fraction `similar`, or belong to a stretch
+/// shorter than that, across gaps up to `gap` mm. NaN is no diameter.
+pub(crate) fn is_uneven(at: &[f64], diameters: &[f64], (length, similar, gap): (f64, f64, f64)) -> Vec<bool> {
+    let is_unlike = |n: usize| {
+        let near = |m: &usize| (at[*m] - at[n]).abs() <= length;
+        let around = (0..at.len()).filter(near).map(|m| diameters[m]);
+        let middle = median(&mut around.filter(|diameter| diameter.is_finite()).collect::<Vec<f64>>());
+        middle.is_some_and(|middle| (diameters[n] / middle - 1.0).abs() > similar)
+    };
+    let mut uneven: Vec<bool> = (0..at.len()).map(is_unlike).collect();
+    let even: Vec<usize> = (0..at.len()).filter(|n| diameters[*n].is_finite() && !uneven[*n]).collect();
+    for run in even.chunk_by(|a, b| at[*b] - at[*a] <= gap) {
+        let ends = run.last().map_or(0.0, |last| at[*last] - at[run[0]]);
+        for n in run {
+            uneven[*n] = ends < length;
         }
     }
+    uneven
 }
 
 #[cfg(test)]

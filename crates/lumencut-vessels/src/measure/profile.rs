@@ -2,6 +2,7 @@
 
 pub mod by_hand;
 pub mod cross_section;
+pub mod flap_stretch;
 pub(crate) mod lung;
 pub mod measuring;
 pub mod outer_volume;
@@ -16,6 +17,8 @@ use glam::{DVec2, DVec3};
 use crate::measure::beside::blooming::join_rings;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Section, center};
+use crate::measure::flap::OnLine;
+use crate::measure::flap::found::{Flap, LumenPair};
 use crate::measure::model::contour::inscribed;
 use crate::measure::model::ellipse::Ellipse;
 use crate::measure::model::wall::Wall;
@@ -85,6 +88,16 @@ pub struct Profile {
     pub outer_wall: Vec<OuterWall>,
     /// Points of that outer wall (mm, LPS), one per ray; empty if it is not visible.
     pub outer_contour: Vec<Vec<DVec3>>,
+    /// Whether both lumens of a dissected vessel are visible.
+    pub flap: Vec<Flap>,
+    /// Contour of the lumen in which the line lies, if both are visible (mm, LPS), else empty.
+    pub own_lumen: Vec<Vec<DVec3>>,
+    /// Contour of the other lumen behind the flap (mm, LPS), else empty.
+    pub other_lumen: Vec<Vec<DVec3>>,
+    /// Area within `own_lumen` and its standard deviation (mm²), else NaN.
+    pub area_own_lumen: Vec<[f64; 2]>,
+    /// Area within `other_lumen` and its standard deviation (mm²), else NaN.
+    pub area_other_lumen: Vec<[f64; 2]>,
     /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
     /// Largest diameter (mm) that the values allow where the lumen of a tight stenosis is dim and does not count, else NaN.
@@ -153,6 +166,11 @@ impl Profile {
             diameter_outer: sections.iter().zip(&flags).map(outer).collect(),
             outer_wall: vec![OuterWall::NoLevel; places.len()],
             outer_contour: vec![Vec::new(); places.len()],
+            flap: vec![Flap::NoLevel; places.len()],
+            own_lumen: vec![Vec::new(); places.len()],
+            other_lumen: vec![Vec::new(); places.len()],
+            area_own_lumen: vec![[f64::NAN; 2]; places.len()],
+            area_other_lumen: vec![[f64::NAN; 2]; places.len()],
             bounds: sections.iter().map(|section| section.bounds).collect(),
             at_most: sections.iter().map(|section| section.at_most).collect(),
             flags,
@@ -207,6 +225,36 @@ impl Profile {
             none: none(n),
         };
         (0..self.len()).map(one).collect()
+    }
+
+    /// Includes the lumens on both sides of a flap.
+    pub(crate) fn with_lumen_pairs(mut self, found: Vec<LumenPair>) -> Self {
+        for (n, one) in found.into_iter().enumerate() {
+            self.flap[n] = one.found;
+            [self.own_lumen[n], self.other_lumen[n]] = one.contours;
+            [self.area_own_lumen[n], self.area_other_lumen[n]] = one.areas;
+        }
+        self
+    }
+
+    /// The sections as the search for flaps needs them; `places` are theirs, `lumen` is the level of a lumen where none was
+    /// fitted.
+    pub(crate) fn on_line<'a>(&self, places: &'a [SectionPlane], lumen: f64) -> Vec<OnLine<'a>> {
+        let one = |n: usize| {
+            let [level, _] = self.levels[n];
+            OnLine {
+                place: &places[n],
+                lumen: if level.is_finite() { level } else { lumen },
+                none: (self.flags[n] & METAL != 0).then_some(Flap::Metal),
+            }
+        };
+        (0..self.len()).map(one).collect()
+    }
+
+    /// Areas of both lumens of a dissected vessel together, and their standard deviations (mm²), per section.
+    pub fn area_both_lumens(&self) -> Vec<[f64; 2]> {
+        let both = |(a, b): (&[f64; 2], &[f64; 2])| [a[0] + b[0], a[1] + b[1]];
+        self.area_own_lumen.iter().zip(&self.area_other_lumen).map(both).collect()
     }
 
     /// Number of sections.

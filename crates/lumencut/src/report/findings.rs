@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::markup::paragraph;
 use super::method_text::Stated;
 use super::{Lengths, Shown, VesselPage};
-use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_outer_stretch, of_stenosis};
+use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_flap_stretch, of_outer_stretch, of_stenosis};
 use crate::not_measured::not_measured;
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Measured};
@@ -48,11 +48,12 @@ pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) 
     let parts = not_measured(measured.profile).into_iter().map(|part| sentence(Kind::Doubt, &part.words));
     let outer = measured.profile.outer_stretch();
     let outer = outer.map(|stretch| sentence(Kind::Remark, &of_outer_stretch(&stretch)));
+    let flap = of_flap_stretch(measured.profile).map(|words| sentence(Kind::Remark, &words));
     let noted = lengths.diameters.iter().filter_map(|at| noted(stated, measured.profile, *at));
     let noted = noted.map(|words| Sentence { kind: Kind::Finding, words });
     let stretches = stretch_words(stated, measured.profile, &lengths.stretches).into_iter();
     let stretches = stretches.map(|words| Sentence { kind: Kind::Remark, words });
-    graded.into_iter().chain(noted).chain(outer).chain(parts).chain(stretches).collect()
+    graded.into_iter().chain(noted).chain(outer).chain(flap).chain(parts).chain(stretches).collect()
 }
 
 /// The sentence for a diameter that the user noted at arc length `at` (mm), with its flags; None if nothing was measured there.

@@ -1,5 +1,7 @@
 //! Decides which pictures a report needs from its caller, and the size of its section pictures.
 
+use std::f64::consts::PI;
+
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
@@ -55,12 +57,21 @@ pub(crate) const PAGE_PIXELS: usize = 300;
 /// The side of a section picture as a multiple of the diameter of the outer wall, which may be much wider than the lumen.
 const OUTER_DIAMETERS: f64 = 1.2;
 
+/// The same for both lumens of a dissected vessel, of which one may lie aside.
+const LUMENS_DIAMETERS: f64 = 2.0;
+
+fn of_both(profile: &Profile, n: usize) -> f64 {
+    2.0 * (profile.area_both_lumens()[n][0] / PI).sqrt()
+}
+
 /// The side of section pictures (mm) in which nearly all reliable sections fit.
 pub(crate) fn section_side(profile: &Profile) -> f64 {
     let mut diameters = longest_diameters(profile);
+    let both =
+        profile.flap_stretch().map_or(0.0, |stretch| LUMENS_DIAMETERS * of_both(profile, stretch.widest));
     let outer = profile.outer_stretch().map_or(0.0, |stretch| OUTER_DIAMETERS * stretch.widest[1]);
-    let fitting =
-        quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).max(outer).ceil());
+    let fitting = quantile(&mut diameters, FITTING_QUANTILE)
+        .map(|wide| (SECTION_DIAMETERS * wide).max(outer).max(both).ceil());
     fitting.map_or(DEFAULT_SIDE_MM, |side| side.clamp(SECTION_SIDES_MM[0], SECTION_SIDES_MM[1]))
 }
 

@@ -2,8 +2,8 @@
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{
-    of_bounds_at, of_c_arm, of_doubts, of_flags, of_outer_at, of_outer_stretch, of_source, of_stenosis,
-    of_wall,
+    of_bounds_at, of_c_arm, of_doubts, of_flags, of_flap_stretch, of_lumens_at, of_outer_at,
+    of_outer_stretch, of_source, of_stenosis, of_wall,
 };
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
@@ -82,6 +82,10 @@ pub(crate) struct ProfileMessage {
     outer_stretch: Option<String>,
     /// Diameter of each outer wall around thrombus or plaque, in words.
     outer: Vec<Option<String>>,
+    /// The longest stretch with a flap, in one sentence.
+    flap_stretch: Option<String>,
+    /// Areas of both lumens behind a flap, in words.
+    lumens: Vec<Option<String>>,
 }
 
 impl From<&Profile> for ProfileMessage {
@@ -109,6 +113,8 @@ impl From<&Profile> for ProfileMessage {
             not_measured: not_measured(profile),
             outer_stretch: profile.outer_stretch().map(|stretch| of_outer_stretch(&stretch)),
             outer: (0..profile.len()).map(|n| of_outer_at(profile, n)).collect(),
+            flap_stretch: of_flap_stretch(profile),
+            lumens: (0..profile.len()).map(|n| of_lumens_at(profile, n)).collect(),
         }
     }
 }
@@ -280,6 +286,9 @@ pub(crate) struct SectionMessage {
     contour: Vec<Vector>,
     /// The outer wall around thrombus or plaque; empty if it is not seen.
     outer_contour: Vec<Vector>,
+    /// The lumen of the line and the other one behind a flap; empty if they are not seen.
+    own_lumen: Vec<Vector>,
+    other_lumen: Vec<Vector>,
     shortest: Option<[Vector; 2]>,
     longest: Option<[Vector; 2]>,
 }
@@ -296,6 +305,8 @@ impl SectionMessage {
             number,
             contour: arrays(&profile.contour[number]),
             outer_contour: arrays(&profile.outer_contour[number]),
+            own_lumen: arrays(&profile.own_lumen[number]),
+            other_lumen: arrays(&profile.other_lumen[number]),
             shortest,
             longest,
         }

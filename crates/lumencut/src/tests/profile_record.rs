@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::Phantom;
+use lumencut_vessels::measure::flap::found::Flap;
 use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;
@@ -220,6 +221,11 @@ fn a_contour_of_other_rays_and_too_many_sections_are_refused() {
     many.contour.resize(count, Vec::new());
     many.outer_wall.resize(count, OuterWall::Thin);
     many.outer_contour.resize(count, Vec::new());
+    many.flap.resize(count, Flap::Absent);
+    many.own_lumen.resize(count, Vec::new());
+    many.other_lumen.resize(count, Vec::new());
+    many.area_own_lumen.resize(count, [1.5; 2]);
+    many.area_other_lumen.resize(count, [1.5; 2]);
     assert_eq!(read(&text_of(&many)).expect_err("too many").found, "20001 sections, more than 20000");
 }
 

@@ -1,6 +1,7 @@
 //! The profile of a synthetic tube.
 
 use glam::DVec3;
+use lumencut_vessels::measure::flap::found::Flap;
 use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM};
@@ -28,6 +29,11 @@ pub(crate) fn tube() -> Profile {
         diameter_outer: vec![[f64::NAN; 2]; count],
         outer_wall: vec![OuterWall::Thin; count],
         outer_contour: vec![Vec::new(); count],
+        flap: vec![Flap::Absent; count],
+        own_lumen: vec![Vec::new(); count],
+        other_lumen: vec![Vec::new(); count],
+        area_own_lumen: vec![[f64::NAN; 2]; count],
+        area_other_lumen: vec![[f64::NAN; 2]; count],
         bounds: at.iter().map(|at| if *at == 20.0 { [7.0, 9.0] } else { [f64::NAN; 2] }).collect(),
         at_most: vec![f64::NAN; count],
         flags: at.iter().map(|at| flags(*at)).collect(),

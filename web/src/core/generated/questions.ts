@@ -415,6 +415,9 @@ export type MeasuredSection = {
   readonly contour: ReadonlyArray<Vector>;
   /** The outer wall around thrombus or plaque; empty if it is not seen. */
   readonly outer_contour: ReadonlyArray<Vector>;
+  /** The lumen of the line and the other one behind a flap; empty if they are not seen. */
+  readonly own_lumen: ReadonlyArray<Vector>;
+  readonly other_lumen: ReadonlyArray<Vector>;
   readonly shortest: readonly [Vector, Vector] | null;
   readonly longest: readonly [Vector, Vector] | null;
 };
@@ -574,6 +577,10 @@ export type Profile = {
   readonly outer_stretch: string | null;
   /** Diameter of each outer wall around thrombus or plaque, in words. */
   readonly outer: ReadonlyArray<string | null>;
+  /** The longest stretch with a flap, in one sentence. */
+  readonly flap_stretch: string | null;
+  /** Areas of both lumens behind a flap, in words. */
+  readonly lumens: ReadonlyArray<string | null>;
 };
 
 export type Reformation = {

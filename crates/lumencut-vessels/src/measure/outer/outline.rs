@@ -39,6 +39,11 @@ pub(crate) fn corners_at(center: DVec2, radii: &[f64]) -> Vec<DVec2> {
 
 /// Area as a fraction of the area of the convex hull: 1 without dents.
 pub(crate) fn solidity(corners: &[DVec2]) -> f64 {
+    area_and_middle(corners).map_or(0.0, |(area, _)| area) / hull_area(corners)
+}
+
+/// Area of the convex hull of some points (mm²).
+pub(crate) fn hull_area(corners: &[DVec2]) -> f64 {
     let mut sorted = corners.to_vec();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = &DVec2>| {
@@ -55,6 +60,5 @@ pub(crate) fn solidity(corners: &[DVec2]) -> f64 {
         hull
     };
     let hull = [half(&mut sorted.iter()), half(&mut sorted.iter().rev())].concat();
-    let area = |outline: &[DVec2]| area_and_middle(outline).map_or(0.0, |(area, _)| area);
-    area(corners) / area(&hull)
+    area_and_middle(&hull).map_or(0.0, |(area, _)| area)
 }

@@ -20,6 +20,7 @@ use crate::measure::beside::branches::{Lumen, meets};
 use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Bench, Known, center, noise};
+use crate::measure::flap::lumen_pairs;
 use crate::measure::model::wall::KnownWall;
 use crate::measure::outer::outer_walls;
 use crate::measure::section::blur::Blur;
@@ -283,6 +284,9 @@ impl PreparedVessel {
         });
         let found = outer_walls(voxels, (&profile.inner(&self.places), middle), &bench.blur, request.stop)?;
         let profile = profile.with_outer(found);
+        let on_line = profile.on_line(&self.places, self.scale.value(1.0));
+        let found = lumen_pairs(voxels, (&on_line, middle), (&bench.blur, profile.noise), request.stop)?;
+        let profile = profile.with_lumen_pairs(found);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 

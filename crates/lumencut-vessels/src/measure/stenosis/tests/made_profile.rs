@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use crate::measure::flap::found::Flap;
 use crate::measure::outer::found::OuterWall;
 use crate::measure::profile::{Profile, Source};
 use crate::measure::uncertainty::Parts;
@@ -28,6 +29,11 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         diameter_outer: vec![[f64::NAN; 2]; count],
         outer_wall: vec![OuterWall::Thin; count],
         outer_contour: vec![Vec::new(); count],
+        flap: vec![Flap::Absent; count],
+        own_lumen: vec![Vec::new(); count],
+        other_lumen: vec![Vec::new(); count],
+        area_own_lumen: vec![[f64::NAN; 2]; count],
+        area_other_lumen: vec![[f64::NAN; 2]; count],
         bounds: vec![[f64::NAN; 2]; count],
         at_most: vec![f64::NAN; count],
         flags: vec![0; count],

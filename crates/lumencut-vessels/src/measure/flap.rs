@@ -1,0 +1,72 @@
+//! True and false lumen of a dissected vessel: two contours of one section, parted by a flap. The flap is a thin dark
+//! sheet through the vessel, which may be too thin to be as dark as a wall.
+
+pub(crate) mod basins;
+pub(crate) mod edges;
+pub mod found;
+pub(crate) mod outlines;
+pub(crate) mod pair;
+pub(crate) mod plane_map;
+
+use rayon::prelude::*;
+
+use crate::measure::flap::found::{Flap, LumenPair};
+use crate::measure::flap::pair::{PairLevels, Search};
+use crate::measure::outer::{GAP_MM, is_uneven};
+use crate::measure::section::SectionPlane;
+use crate::measure::section::blur::Blur;
+use crate::voxels::Voxels;
+use lumencut_core::error::Result;
+use lumencut_core::stop::{Stop, go_on};
+
+/// Two lumens are similar over at least this length (mm).
+const LEAST_LENGTH_MM: f64 = 10.0;
+
+/// Maximum relative difference of the diameter of a lumen from the median within `LEAST_LENGTH_MM`.
+const SIMILAR: f64 = 0.12;
+
+/// A section as the search for a flap needs it.
+pub(crate) struct OnLine<'a> {
+    pub place: &'a SectionPlane,
+    /// Level of the lumen, in the volume's unit.
+    pub lumen: f64,
+    /// Why no flap is searched here, if so.
+    pub none: Option<Flap>,
+}
+
+/// Finds the two lumens of each section. `flap` is the level of a flap in HU, if it is known; `noise` that of a voxel.
+pub(crate) fn lumen_pairs(
+    voxels: &Voxels,
+    (sections, flap): (&[OnLine], Option<[f64; 2]>),
+    (blur, noise): (&Blur, f64),
+    stop: Stop,
+) -> Result<Vec<LumenPair>> {
+    let find = |one: &OnLine| {
+        go_on(stop)?;
+        let Some(flap) = flap else { return Ok(LumenPair::none(Flap::NoLevel)) };
+        if let Some(why) = one.none {
+            return Ok(LumenPair::none(why));
+        }
+        let levels = PairLevels { lumen: one.lumen, flap, noise };
+        let search = Search { voxels, place: one.place, levels, blur };
+        Ok(search.pair().unwrap_or_else(LumenPair::none))
+    };
+    let mut found: Vec<LumenPair> = sections.par_iter().map(find).collect::<Result<_>>()?;
+    let at: Vec<f64> = sections.iter().map(|one| one.place.at).collect();
+    leave_out_uneven(&at, &mut found);
+    Ok(found)
+}
+
+fn leave_out_uneven(at: &[f64], found: &mut [LumenPair]) {
+    for lumen in 0..2 {
+        let diameters: Vec<f64> = found.iter().map(|pair| pair.areas[lumen][0].sqrt()).collect();
+        let uneven = is_uneven(at, &diameters, (LEAST_LENGTH_MM, SIMILAR, GAP_MM));
+        for (pair, _) in found.iter_mut().zip(uneven).filter(|(_, is_uneven)| *is_uneven) {
+            *pair = LumenPair::none(Flap::Uneven);
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "flap/tests/flap.rs"]
+mod tests;

@@ -1,0 +1,71 @@
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::PI;
+
+use glam::DVec2;
+
+use super::basins::{Basins, Dams, NONE};
+use super::outlines::outline;
+use super::plane_map::PlaneMap;
+use super::*;
+
+const STEP: f64 = 0.4;
+const COUNT: usize = 81;
+
+/// A map of 32 mm with these values.
+fn map(value: impl Fn(DVec2) -> f64) -> PlaneMap {
+    let mut map = PlaneMap::empty(STEP, COUNT);
+    map.values = (0..COUNT * COUNT).map(|n| value(map.place(n))).collect();
+    map
+}
+
+fn basins(map: &PlaneMap) -> Basins {
+    Basins::of(map, &map.sheets(), &Dams { bright: 0.3, least_sheet: 0.2, least_size: 20 })
+}
+
+#[test]
+fn a_disc_has_an_even_outline_with_its_area() {
+    let disc = map(|place| if place.length() < 8.0 { 1.0 } else { 0.0 });
+    let found = basins(&disc);
+    let own = found.of[disc.nearest(DVec2::ZERO).unwrap()];
+    let corners = outline(&disc, &found, own);
+    for corner in &corners {
+        assert!((corner.at.length() - 8.0).abs() < 0.5 && corner.out.dot(corner.at.normalize()) > 0.9);
+    }
+    let twice: f64 = (0..64).map(|n| corners[n].at.perp_dot(corners[(n + 1) % 64].at)).sum();
+    assert!((0.5 * twice.abs() / (PI * 64.0) - 1.0).abs() < 0.02, "{twice}");
+    assert_eq!(found.of[0], NONE);
+}
+
+#[test]
+fn a_valley_parts_two_basins_unless_it_is_shallow_or_one_side_is_small() {
+    let parts = |depth: f64, at: f64| {
+        let found = basins(&map(|place| {
+            let valley = depth * (-0.5 * (place.x - at).powi(2) / 0.5).exp();
+            if place.length() < 8.0 { 1.0 - valley } else { 0.0 }
+        }));
+        let mut all: Vec<u32> = found.of.iter().copied().filter(|basin| *basin != NONE).collect();
+        all.sort_unstable();
+        all.dedup();
+        all.len()
+    };
+    assert_eq!([parts(0.4, 2.0), parts(0.05, 2.0), parts(0.4, 7.8)], [2, 1, 1]);
+}
+
+#[test]
+fn lumens_seen_over_less_than_10_mm_are_left_out() {
+    let at: Vec<f64> = (0..60).map(|n| f64::from(n) * 0.5).collect();
+    let pair = |area: f64| LumenPair {
+        found: Flap::Seen,
+        areas: [[area, 1.0], [100.0, 1.0]],
+        contours: Default::default(),
+    };
+    let mut found: Vec<LumenPair> = (0..60)
+        .map(|n| if n < 12 || n >= 30 { pair(200.0) } else { LumenPair::none(Flap::Absent) })
+        .collect();
+    found[40] = pair(400.0);
+    leave_out_uneven(&at, &mut found);
+    let kept: Vec<usize> = (0..60).filter(|n| found[*n].found == Flap::Seen).collect();
+    assert_eq!(kept, (30..40).chain(41..60).collect::<Vec<_>>());
+    assert_eq!([3, 20, 40].map(|n| found[n].found), [Flap::Uneven, Flap::Absent, Flap::Uneven]);
+}
