@@ -14,10 +14,12 @@ use lumencut_vessels::measure::wall::WallRequest;
 const SIDE: f64 = 0.8;
 const FINE: usize = 4;
 const FWHM: f64 = 1.0;
-const SIZE: [usize; 3] = [50, 50, 26];
+const SIZE: [usize; 3] = [50, 50, 40];
 const MIDDLE: DVec2 = DVec2::new(20.3, 19.7);
 const RADIUS: f64 = 11.0;
-const [FAT, WALL, NOISE]: [f64; 3] = [-95.0, 50.0, 15.0];
+const FAT: f64 = -95.0;
+const WALL: f64 = 50.0;
+const NOISE: f64 = 15.0;
 
 /// A vessel whose lumen is parted by a sheet across x, `at` mm from its middle.
 #[derive(Clone, Copy)]
@@ -98,7 +100,7 @@ fn profile(off: f64, level: impl Fn(DVec2) -> f64) -> Profile {
     let strides = [1, SIZE[0], SIZE[0] * SIZE[1]];
     let scale = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), SIZE, strides, scale).unwrap();
-    let line = (2..18).map(|z| (MIDDLE + DVec2::X * off).extend(f64::from(z)));
+    let line = (2..29).map(|z| (MIDDLE + DVec2::X * off).extend(f64::from(z)));
     let vessel = Vessel::new(line.collect(), None).unwrap();
     let wall = WallRequest::Automatic;
     let request = MeasureRequest { step: 0.5, fwhm: Some(FWHM), wall, tree: &[], stop: &|| false };

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::measure::flap::found::{Flap, LumenPair};
 use crate::measure::flap::pair::{PairLevels, Search};
-use crate::measure::outer::{GAP_MM, is_uneven};
+use crate::measure::outer::is_uneven;
 use crate::measure::section::SectionPlane;
 use crate::measure::section::blur::Blur;
 use crate::voxels::Voxels;
@@ -22,8 +22,14 @@ use lumencut_core::stop::{Stop, go_on};
 /// Two lumens are similar over at least this length (mm).
 const LEAST_LENGTH_MM: f64 = 10.0;
 
+/// Maximum gap within that length (mm).
+pub(crate) const GAP_MM: f64 = 4.0;
+
 /// Maximum relative difference of the diameter of a lumen from the median within `LEAST_LENGTH_MM`.
 const SIMILAR: f64 = 0.12;
+
+/// Flaps are searched at this distance (mm), and in between next to those that are found.
+const EVERY_MM: f64 = 2.0;
 
 /// A section as the search for a flap needs it.
 pub(crate) struct OnLine<'a> {
@@ -51,8 +57,20 @@ pub(crate) fn lumen_pairs(
         let search = Search { voxels, place: one.place, levels, blur };
         Ok(search.pair().unwrap_or_else(LumenPair::none))
     };
-    let mut found: Vec<LumenPair> = sections.par_iter().map(find).collect::<Result<_>>()?;
     let at: Vec<f64> = sections.iter().map(|one| one.place.at).collect();
+    let first = at.first().copied().unwrap_or(0.0);
+    let every = at.partition_point(|at| *at < first + EVERY_MM).max(1);
+    let some: Vec<LumenPair> = sections.par_iter().step_by(every).map(find).collect::<Result<_>>()?;
+    let between = |n: usize| {
+        let around = [n / every, n.div_ceil(every).min(some.len() - 1)];
+        let nearest = &some[around[usize::from(2 * (n % every) > every)]];
+        match n % every {
+            0 => Ok(nearest.clone()),
+            _ if around.iter().any(|n| some[*n].found == Flap::Seen) => find(&sections[n]),
+            _ => Ok(LumenPair::none(sections[n].none.unwrap_or(nearest.found))),
+        }
+    };
+    let mut found: Vec<LumenPair> = (0..sections.len()).into_par_iter().map(between).collect::<Result<_>>()?;
     leave_out_uneven(&at, &mut found);
     Ok(found)
 }

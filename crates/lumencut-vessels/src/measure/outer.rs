@@ -23,7 +23,7 @@ use lumencut_core::stop::{Stop, go_on};
 const LEAST_LENGTH_MM: f64 = 5.0;
 
 /// Maximum gap within that length (mm).
-pub(crate) const GAP_MM: f64 = 2.0;
+const GAP_MM: f64 = 2.0;
 
 /// Maximum relative difference of a diameter from the median within `LEAST_LENGTH_MM`.
 const SIMILAR: f64 = 0.1;

@@ -1,6 +1,8 @@
 //! Parts a section into lumens by flooding: water rises from the middle of each lumen, and where two lumens meet at a dark
 //! sheet, a dam keeps them apart (watershed; Vincent and Soille 1991, doi:10.1109/34.87344).
 
+use std::collections::HashMap;
+
 use super::plane_map::PlaneMap;
 
 /// What keeps two basins apart.
@@ -12,6 +14,8 @@ pub(crate) struct Dams {
     pub least_sheet: f64,
     /// Smaller basins are noise (number of values).
     pub least_size: usize,
+    /// Two basins are one if at least this number of values between them shows no sheet; fewer are noise.
+    pub least_gap: usize,
 }
 
 /// Number of the basin of each value of the map; `NONE` in the dark.
@@ -51,6 +55,7 @@ impl Basins {
         let mut order: Vec<usize> = (0..sheets.len()).filter(|n| smooth.values[*n] > dams.bright).collect();
         order.sort_by(|a, b| sheets[*a].max(0.0).total_cmp(&sheets[*b].max(0.0)).then(a.cmp(b)));
         let mut joined = Joined { parent: vec![NONE; sheets.len()], size: vec![1; sheets.len()] };
+        let mut gaps: HashMap<[usize; 2], usize> = HashMap::new();
         for n in order {
             let mut roots: Vec<usize> = neighbors(n, smooth.count).filter_map(|m| joined.root(m)).collect();
             roots.sort_by(|a, b| joined.size[*b].cmp(&joined.size[*a]).then(a.cmp(b)));
@@ -59,7 +64,9 @@ impl Basins {
             let Some(largest) = roots.first().copied() else { continue };
             joined.join(largest, n);
             for other in &roots[1..] {
-                if sheets[n] < dams.least_sheet || joined.size[*other] < dams.least_size {
+                let gap = gaps.entry([largest.min(*other), largest.max(*other)]).or_default();
+                *gap += usize::from(sheets[n] < dams.least_sheet);
+                if *gap >= dams.least_gap || joined.size[*other] < dams.least_size {
                     joined.join(largest, *other);
                 }
             }

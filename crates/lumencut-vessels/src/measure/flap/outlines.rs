@@ -1,7 +1,5 @@
 //! The outline of a basin as a smooth closed line.
 
-use std::f64::consts::TAU;
-
 use glam::DVec2;
 
 use super::basins::Basins;
@@ -90,7 +88,7 @@ fn evenly(corners: &[DVec2]) -> Vec<DVec2> {
 fn with_normals(points: &[DVec2]) -> Vec<Corner> {
     let one = |n: usize| {
         let along = points[(n + 1) % RAYS] - points[(n + RAYS - 1) % RAYS];
-        Corner { at: points[n], out: DVec2::new(along.y, -along.x).normalize_or(DVec2::from_angle(TAU)) }
+        Corner { at: points[n], out: DVec2::new(along.y, -along.x).normalize_or(DVec2::X) }
     };
     (0..points.len()).map(one).collect()
 }

@@ -11,7 +11,7 @@ use super::outlines::{Corner, outline};
 use super::plane_map::PlaneMap;
 use crate::measure::outer::outline::{area_and_middle, hull_area};
 use crate::measure::section::SectionPlane;
-use crate::measure::section::blur::{Blur, fwhm_of};
+use crate::measure::section::blur::Blur;
 use crate::measure::section::rays::{RAYS, direction};
 use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
@@ -39,6 +39,9 @@ const LEAST_SHEET: (f64, f64) = (2.5, 0.3);
 /// Minimum area of a lumen (mm²), and minimum diameter of both together (mm).
 const LEAST_AREA: f64 = 12.0;
 const LEAST_WHOLE_MM: f64 = 12.0;
+
+/// Minimum width of a tear that makes one lumen of two (blur widths).
+const LEAST_TEAR: f64 = 1.0;
 
 /// Area of values far brighter than lumen (mm²) from which metal hides the lumens.
 const METAL_AREA: f64 = 6.0;
@@ -86,22 +89,18 @@ struct Lumen {
 
 impl Search<'_, '_> {
     /// Both lumens; why they are not visible otherwise.
-    pub(crate) fn pair(mut self) -> Result<LumenPair, Flap> {
+    pub(crate) fn pair(&self) -> Result<LumenPair, Flap> {
         let reach = self.reach().ok_or(Flap::Absent)?;
         let width = self.blur.width(self.place);
-        let step = (STEP.0 * width).max(STEP.1 * self.voxels.sampling_side);
-        let map = PlaneMap::read(self.voxels, self.place, [reach, step], self.levels.at(1.0 + CAPPED));
-        let smooth = map.smoothed(SMOOTHING * width);
-        let sheets = smooth.sheets();
-        let dams = self.dams(&smooth, &sheets, width);
-        let basins = Basins::of(&smooth, &sheets, &dams);
+        let (map, basins) = self.parted(reach, width);
         let own = map.nearest(DVec2::ZERO).map_or(NONE, |n| basins.of[n]);
         if own == NONE {
             return Err(Flap::Absent);
         }
         let first = outline(&map, &basins, own);
         let other = behind(&map, &basins, own, &first).ok_or(Flap::Absent)?;
-        if [own, other].iter().any(|basin| (basins.size(*basin) as f64) * step * step < LEAST_AREA) {
+        let is_small = |basin: u32| basins.size(basin) as f64 * map.step * map.step < LEAST_AREA;
+        if is_small(own) || is_small(other) {
             return Err(Flap::Absent);
         }
         let second = outline(&map, &basins, other);
@@ -109,22 +108,36 @@ impl Search<'_, '_> {
         if first.iter().chain(&second).any(is_open) {
             return Err(Flap::Open);
         }
-        let interpolated = fwhm_of(self.blur.interpolated(self.place).determinant().sqrt());
-        let deviation = (interpolated.powi(2) / (8.0 * std::f64::consts::LN_2) + step * step / 6.0).sqrt();
         let lumen = |lumens: [u32; 2], corners: &[Corner]| {
             let (dark, noise) = (self.levels.flap[0], self.levels.noise);
-            let rim = Rim { map: &map, basins: &basins, lumens, dark, blur: [width, deviation], noise };
+            let blur = [width, self.deviation(map.step)];
+            let rim = Rim { map: &map, basins: &basins, lumens, dark, blur, noise };
             Lumen::of(corners, &rim.edges(corners))
         };
         let lumens = [lumen([own, other], &first), lumen([other, own], &second)];
         let [Some(a), Some(b)] = lumens else { return Err(Flap::Open) };
         let pair = self.judged([a, b], width)?;
-        let hides = is_metal(&map, &basins, [own, other], self.levels.at(1.0 + CAPPED));
-        if hides { Err(Flap::Metal) } else { Ok(pair) }
+        let is_hidden = is_metal(&map, &basins, [own, other], self.levels.at(1.0 + CAPPED));
+        if is_hidden { Err(Flap::Metal) } else { Ok(pair) }
+    }
+
+    /// The section up to `reach` mm from the line, and its lumens; `width` is the blur (mm).
+    fn parted(&self, reach: f64, width: f64) -> (PlaneMap, Basins) {
+        let step = (STEP.0 * width).max(STEP.1 * self.voxels.sampling_side);
+        let map = PlaneMap::read(self.voxels, self.place, [reach, step], self.levels.at(1.0 + CAPPED));
+        let smooth = map.smoothed(SMOOTHING * width);
+        let sheets = smooth.sheets();
+        let basins = Basins::of(&smooth, &sheets, &self.dams(&smooth, &sheets, width));
+        (map, basins)
+    }
+
+    /// Standard deviation (mm) of the blur of a map with this step: by the scan and by interpolation.
+    fn deviation(&self, step: f64) -> f64 {
+        (self.blur.interpolated(self.place).determinant().sqrt() + step * step / 6.0).sqrt()
     }
 
     /// How far lumens reach from the line (mm); None if there is nothing behind something dark.
-    fn reach(&mut self) -> Option<f64> {
+    fn reach(&self) -> Option<f64> {
         let step = 0.5 * self.voxels.sampling_side;
         let count = (REACH_MM / step) as usize;
         let [bright, darker] = [BRIGHT, DARKER].map(|share| self.levels.at(share));
@@ -163,7 +176,12 @@ impl Search<'_, '_> {
         let noise = 1.48 * median(&mut sizes).unwrap_or(0.0);
         let of_contrast = LEAST_SHEET.1 * (self.levels.lumen - self.levels.flap[0]) / (width * width);
         let least_size = (LEAST_AREA / (smooth.step * smooth.step)) as usize;
-        Dams { bright, least_sheet: (LEAST_SHEET.0 * noise).max(of_contrast), least_size }
+        Dams {
+            bright,
+            least_sheet: (LEAST_SHEET.0 * noise).max(of_contrast),
+            least_size,
+            least_gap: (LEAST_TEAR * width / smooth.step) as usize,
+        }
     }
 
     fn judged(&self, lumens: [Lumen; 2], width: f64) -> Result<LumenPair, Flap> {

@@ -2,11 +2,9 @@
 
 use glam::DVec2;
 
+use crate::measure::outer::polar_map::PLANES;
 use crate::measure::section::SectionPlane;
 use crate::voxels::Voxels;
-
-/// Weights of the planes one voxel before, at, and behind the section.
-const PLANES: [(f64, f64); 3] = [(-1.0, 0.25), (0.0, 0.5), (1.0, 0.25)];
 
 /// A square of `count` × `count` values; the middle one lies on the centerline.
 #[derive(Clone, Debug)]
@@ -25,8 +23,7 @@ impl PlaneMap {
     pub(crate) fn read(voxels: &Voxels, place: &SectionPlane, [reach, step]: [f64; 2], most: f64) -> Self {
         let half = (reach / step).ceil() as usize;
         let count = 2 * half + 1;
-        let mut map =
-            Self { step, count, values: vec![0.0; count * count], is_outside: vec![false; count * count] };
+        let mut map = Self::empty(step, count);
         let stride = voxels.index_from_world.transform_vector3(place.axes[0] * step);
         let mut read = Vec::with_capacity(count + 16);
         for j in 0..count {
@@ -45,6 +42,10 @@ impl PlaneMap {
             }
         }
         map
+    }
+
+    pub(super) fn empty(step: f64, count: usize) -> Self {
+        Self { step, count, values: vec![0.0; count * count], is_outside: vec![false; count * count] }
     }
 
     /// Coordinates in the plane (mm) of value number `n`.

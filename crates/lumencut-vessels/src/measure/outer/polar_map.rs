@@ -12,7 +12,7 @@ use crate::voxels::Voxels;
 const STEP: f64 = 0.4;
 
 /// Weights of the planes one voxel before, at, and behind the section.
-const PLANES: [(f64, f64); 3] = [(-1.0, 0.25), (0.0, 0.5), (1.0, 0.25)];
+pub(crate) const PLANES: [(f64, f64); 3] = [(-1.0, 0.25), (0.0, 0.5), (1.0, 0.25)];
 
 /// Standard deviation of the smoothing along a ray (blur widths; at least this many samples), and across rays (mm; at
 /// most this many rays).

@@ -1,10 +1,8 @@
 //! The longest stretch of a vessel that shows two lumens.
 
 use super::Profile;
+use crate::measure::flap::GAP_MM;
 use crate::measure::flap::found::Flap;
-
-/// Sections without two lumens part a stretch if they are longer than this (mm).
-const GAP_MM: f64 = 5.0;
 
 /// A stretch that shows both lumens of a dissected vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,7 @@ fn map(value: impl Fn(DVec2) -> f64) -> PlaneMap {
 }
 
 fn basins(map: &PlaneMap) -> Basins {
-    Basins::of(map, &map.sheets(), &Dams { bright: 0.3, least_sheet: 0.2, least_size: 20 })
+    Basins::of(map, &map.sheets(), &Dams { bright: 0.3, least_sheet: 0.2, least_size: 20, least_gap: 3 })
 }
 
 #[test]
