@@ -135,9 +135,10 @@ pub fn of_outer_wall(outer: OuterWall) -> &'static str {
 pub fn of_flap(flap: Flap) -> &'static str {
     match flap {
         Flap::Seen => "seen",
-        Flap::Absent => "no flap parts the lumen",
+        Flap::Absent => "no thin flap next to the lumen",
         Flap::Metal => "metal hides it",
         Flap::Open => "a lumen is not enclosed",
+        Flap::Dim => "a lumen is partly dim",
         Flap::Uneven => "not similar over 10 mm",
         Flap::NoLevel => "the level of the flap is unknown",
     }

@@ -47,9 +47,9 @@ pub(crate) fn lumen_pairs(
     (blur, noise): (&Blur, f64),
     stop: Stop,
 ) -> Result<Vec<LumenPair>> {
+    let Some(flap) = flap else { return Ok(vec![LumenPair::none(Flap::NoLevel); sections.len()]) };
     let find = |one: &OnLine| {
         go_on(stop)?;
-        let Some(flap) = flap else { return Ok(LumenPair::none(Flap::NoLevel)) };
         if let Some(why) = one.none {
             return Ok(LumenPair::none(why));
         }

@@ -1,9 +1,10 @@
 //! Parts a section into lumens by flooding: water rises from the middle of each lumen, and where two lumens meet at a dark
 //! sheet, a dam keeps them apart (watershed; Vincent and Soille 1991, doi:10.1109/34.87344).
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::plane_map::PlaneMap;
+use lumencut_core::math::statistics::median;
 
 /// What keeps two basins apart.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +74,49 @@ impl Basins {
         }
         let root = |n: usize| joined.root(n).map_or(NONE, |root| root as u32);
         Self { of: (0..sheets.len()).map(root).collect() }
+    }
+
+    /// Reduces a basin to the largest connected part in which a smoothed map exceeds a fraction of its contrast to the level
+    /// `dark`. Returns how many of the other values lie farther than `near` steps from this part.
+    pub(crate) fn trim(
+        &mut self,
+        smooth: &PlaneMap,
+        basin: u32,
+        (dark, share): (f64, f64),
+        near: isize,
+    ) -> usize {
+        let all: Vec<usize> = (0..self.of.len()).filter(|n| self.of[*n] == basin).collect();
+        let mut values: Vec<f64> = all.iter().map(|n| smooth.values[*n]).collect();
+        let least = dark + share * (median(&mut values).unwrap_or(dark) - dark);
+        for n in &all {
+            self.of[*n] = NONE;
+        }
+        let mut left: HashSet<usize> = all.iter().copied().filter(|n| smooth.values[*n] > least).collect();
+        let mut largest = Vec::new();
+        for n in &all {
+            let mut part: Vec<usize> = left.take(n).into_iter().collect();
+            let mut at = 0;
+            while at < part.len() {
+                part.extend(neighbors(part[at], smooth.count).filter_map(|m| left.take(&m)));
+                at += 1;
+            }
+            largest = if part.len() > largest.len() { part } else { largest };
+        }
+        for n in &largest {
+            self.of[*n] = basin;
+        }
+        let is_far = |n: &&usize| self.of[**n] == NONE && !self.is_within(**n, basin, (near, smooth.count));
+        all.iter().filter(is_far).count()
+    }
+
+    /// Whether a basin has a value within this number of steps of value `n`, in rows of `count` values.
+    fn is_within(&self, n: usize, basin: u32, (steps, count): (isize, usize)) -> bool {
+        let (i, j, count) = ((n % count) as isize, (n / count) as isize, count as isize);
+        let mut around = (-steps..=steps).flat_map(|y| (-steps..=steps).map(move |x| (i + x, j + y, x * x + y * y)));
+        around.any(|(x, y, square)| {
+            let is_inside = x >= 0 && y >= 0 && x < count && y < count && square <= steps * steps;
+            is_inside && self.of[(y * count + x) as usize] == basin
+        })
     }
 
     pub(crate) fn size(&self, basin: u32) -> usize {

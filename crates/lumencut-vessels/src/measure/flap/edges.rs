@@ -12,7 +12,7 @@ use crate::measure::estimation::unit;
 use crate::measure::section::rays::RAYS;
 use lumencut_core::math::statistics::median;
 
-/// The other lumen begins at most this far from the outline (mm): the thickest flap.
+/// The thickest flap (mm); the other lumen begins at most a blur width farther from the outline.
 pub(crate) const THICKEST_MM: f64 = 3.0;
 
 /// Expected thickness of a flap and its standard deviation (mm).
@@ -91,7 +91,7 @@ impl Rim<'_> {
 
     fn edge(&self, corner: &Corner, level: f64) -> Option<Edge> {
         let behind = self
-            .samples([0.0, THICKEST_MM])
+            .samples([0.0, THICKEST_MM + self.blur[0]])
             .find(|mm| self.basin(corner.at + corner.out * *mm) == self.lumens[1]);
         match behind {
             Some(behind) => self.flap(corner, level, behind),

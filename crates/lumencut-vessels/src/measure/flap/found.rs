@@ -13,6 +13,8 @@ pub enum Flap {
     Metal,
     /// A lumen is not enclosed by a wall, or not within reach.
     Open,
+    /// A lumen is partly dim, so that its edge is in doubt.
+    Dim,
     /// The lumens are not similar over 10 mm.
     Uneven,
     /// Nothing says which values a flap has.
@@ -21,8 +23,8 @@ pub enum Flap {
 
 impl Flap {
     /// All cases; their order is that of stored numbers.
-    pub const ALL: [Self; 6] =
-        [Self::Seen, Self::Absent, Self::Metal, Self::Open, Self::Uneven, Self::NoLevel];
+    pub const ALL: [Self; 7] =
+        [Self::Seen, Self::Absent, Self::Metal, Self::Open, Self::Dim, Self::Uneven, Self::NoLevel];
 }
 
 /// The lumen in which the line lies, and the other one behind the flap.

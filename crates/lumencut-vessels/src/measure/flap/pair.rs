@@ -46,6 +46,10 @@ const LEAST_TEAR: f64 = 1.0;
 /// Area of values far brighter than lumen (mm²) from which metal hides the lumens.
 const METAL_AREA: f64 = 6.0;
 
+/// What is dimmer than this fraction of the contrast of its lumen is no lumen, and puts the edge in doubt if it is more than
+/// this fraction of it.
+const DIM: (f64, f64) = (0.5, 0.05);
+
 /// Minimum length of the flap, as a fraction of the diameter of the smaller lumen.
 const LEAST_FLAP: f64 = 1.0;
 
@@ -92,18 +96,23 @@ impl Search<'_, '_> {
     pub(crate) fn pair(&self) -> Result<LumenPair, Flap> {
         let reach = self.reach().ok_or(Flap::Absent)?;
         let width = self.blur.width(self.place);
-        let (map, basins) = self.parted(reach, width);
+        let (map, smooth, mut basins) = self.parted(reach, width);
         let own = map.nearest(DVec2::ZERO).map_or(NONE, |n| basins.of[n]);
         if own == NONE {
             return Err(Flap::Absent);
         }
-        let first = outline(&map, &basins, own);
-        let other = behind(&map, &basins, own, &first).ok_or(Flap::Absent)?;
-        let is_small = |basin: u32| basins.size(basin) as f64 * map.step * map.step < LEAST_AREA;
-        if is_small(own) || is_small(other) {
-            return Err(Flap::Absent);
+        let other = behind(&map, &basins, own).ok_or(Flap::Absent)?;
+        for lumen in [own, other] {
+            let size = basins.size(lumen);
+            if (size as f64) * map.step * map.step < LEAST_AREA {
+                return Err(Flap::Absent);
+            }
+            let dim = basins.trim(&smooth, lumen, (self.levels.flap[0], DIM.0), (width / map.step) as isize);
+            if dim as f64 > DIM.1 * size as f64 {
+                return Err(Flap::Dim);
+            }
         }
-        let second = outline(&map, &basins, other);
+        let [first, second] = [own, other].map(|lumen| outline(&map, &basins, lumen));
         let is_open = |corner: &Corner| !map.holds(corner.at + corner.out * width);
         if first.iter().chain(&second).any(is_open) {
             return Err(Flap::Open);
@@ -112,23 +121,21 @@ impl Search<'_, '_> {
             let (dark, noise) = (self.levels.flap[0], self.levels.noise);
             let blur = [width, self.deviation(map.step)];
             let rim = Rim { map: &map, basins: &basins, lumens, dark, blur, noise };
-            Lumen::of(corners, &rim.edges(corners))
+            Lumen::of(corners, &rim.edges(corners)).ok_or(Flap::Open)
         };
-        let lumens = [lumen([own, other], &first), lumen([other, own], &second)];
-        let [Some(a), Some(b)] = lumens else { return Err(Flap::Open) };
-        let pair = self.judged([a, b], width)?;
+        let pair = self.judged([lumen([own, other], &first)?, lumen([other, own], &second)?], width)?;
         let is_hidden = is_metal(&map, &basins, [own, other], self.levels.at(1.0 + CAPPED));
         if is_hidden { Err(Flap::Metal) } else { Ok(pair) }
     }
 
-    /// The section up to `reach` mm from the line, and its lumens; `width` is the blur (mm).
-    fn parted(&self, reach: f64, width: f64) -> (PlaneMap, Basins) {
+    /// The section up to `reach` mm from the line, as it is and smoothed, and its lumens; `width` is the blur (mm).
+    fn parted(&self, reach: f64, width: f64) -> (PlaneMap, PlaneMap, Basins) {
         let step = (STEP.0 * width).max(STEP.1 * self.voxels.sampling_side);
         let map = PlaneMap::read(self.voxels, self.place, [reach, step], self.levels.at(1.0 + CAPPED));
         let smooth = map.smoothed(SMOOTHING * width);
         let sheets = smooth.sheets();
         let basins = Basins::of(&smooth, &sheets, &self.dams(&smooth, &sheets, width));
-        (map, basins)
+        (map, smooth, basins)
     }
 
     /// Standard deviation (mm) of the blur of a map with this step: by the scan and by interpolation.
@@ -258,15 +265,15 @@ impl Lumen {
     }
 }
 
-/// The basin that lies behind the most corners of an outline.
-fn behind(map: &PlaneMap, basins: &Basins, own: u32, corners: &[Corner]) -> Option<u32> {
+/// The basin that lies behind the most corners of the outline of another one.
+fn behind(map: &PlaneMap, basins: &Basins, own: u32) -> Option<u32> {
     let met = |corner: &Corner| {
         let steps = 1..=(THICKEST_MM / map.step) as usize;
         let places = steps.map(|n| corner.at + corner.out * (n as f64 * map.step));
         let found = places.filter_map(|place| map.nearest(place)).map(|n| basins.of[n]);
         found.filter(|basin| *basin != NONE && *basin != own).next()
     };
-    let all: Vec<u32> = corners.iter().filter_map(met).collect();
+    let all: Vec<u32> = outline(map, basins, own).iter().filter_map(met).collect();
     let count = |basin: u32| all.iter().filter(|other| **other == basin).count();
     all.iter().copied().max_by_key(|basin| (count(*basin), *basin))
 }
