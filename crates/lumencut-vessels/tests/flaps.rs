@@ -77,7 +77,8 @@ fn slice(level: impl Fn(DVec2) -> f64) -> Vec<f64> {
         let before = values.clone();
         for n in 0..count * count {
             let (line, at) = (n / count, (n % count) as isize);
-            let value = |m: isize| before[line * across + (at + m).clamp(0, count as isize - 1) as usize * along];
+            let value =
+                |m: isize| before[line * across + (at + m).clamp(0, count as isize - 1) as usize * along];
             values[line * across + at as usize * along] =
                 (-reach..=reach).map(|m| weight(m) * value(m)).sum::<f64>() / all;
         }
@@ -122,13 +123,19 @@ fn both_lumens_have_their_areas_whether_the_flap_is_thin_thick_or_a_step() {
         for n in all {
             let both = found.area_both_lumens()[n];
             let own_and_other = [found.area_own_lumen[n], found.area_other_lumen[n], both];
-            for ([area, unsure], truth) in own_and_other.into_iter().zip([areas[0], areas[1], areas[0] + areas[1]]) {
-                assert!((area - truth).abs() < 3.0 * unsure, "{thickness}, {levels:?}: {area} ± {unsure}, {truth}");
+            for ([area, unsure], truth) in
+                own_and_other.into_iter().zip([areas[0], areas[1], areas[0] + areas[1]])
+            {
+                assert!(
+                    (area - truth).abs() < 3.0 * unsure,
+                    "{thickness}, {levels:?}: {area} ± {unsure}, {truth}"
+                );
                 assert!(unsure < 0.03 * truth, "{unsure} of {truth}");
             }
             let right = MIDDLE.x + flapped.at;
-            assert!(found.own_lumen[n].iter().all(|point| point.x < right));
-            assert!(found.other_lumen[n].iter().all(|point| point.x > right));
+            // Blur rounds the corners at which the flap meets the wall.
+            assert!(found.own_lumen[n].iter().all(|point| point.x < right + 0.5));
+            assert!(found.other_lumen[n].iter().all(|point| point.x > right - 0.5));
         }
         let stretch = found.flap_stretch().unwrap();
         assert!(stretch.ends[1] - stretch.ends[0] > 10.0);
@@ -144,7 +151,8 @@ fn no_second_lumen_without_a_whole_flap_or_in_a_neighbour() {
         let is_vein = place.distance(MIDDLE + DVec2::X * (RADIUS + 5.2)) < 4.0;
         if is_vein { 300.0 } else { whole.level(place) }
     };
-    for found in [profile(0.0, |at| torn.level(at)), profile(0.0, |at| whole.level(at)), profile(0.0, beside)] {
+    for found in [profile(0.0, |at| torn.level(at)), profile(0.0, |at| whole.level(at)), profile(0.0, beside)]
+    {
         assert_eq!(seen(&found), Vec::<usize>::new());
         assert!(found.other_lumen.iter().all(Vec::is_empty));
         assert!(found.area_both_lumens().iter().all(|area| area[0].is_nan()));

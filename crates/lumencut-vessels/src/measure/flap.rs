@@ -70,7 +70,8 @@ pub(crate) fn lumen_pairs(
             _ => Ok(LumenPair::none(sections[n].none.unwrap_or(nearest.found))),
         }
     };
-    let mut found: Vec<LumenPair> = (0..sections.len()).into_par_iter().map(between).collect::<Result<_>>()?;
+    let mut found: Vec<LumenPair> =
+        (0..sections.len()).into_par_iter().map(between).collect::<Result<_>>()?;
     leave_out_uneven(&at, &mut found);
     Ok(found)
 }

@@ -1,5 +1,8 @@
 //! Finds stents whose struts only brighten the wall: the lumen seems 2 to 10 % too wide. The values at the wall resemble
 //! those one and two periods of the stent away, and not those half a period away. Noise, fat and plaque do not repeat.
+//! Thinner struts than show in each direction show in the mean of all, as their rings are closed.
+
+use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
@@ -38,11 +41,18 @@ const LEAST_NOISE: f64 = 0.012;
 const REPEATS: f64 = 0.75;
 const UNEVEN: f64 = 1.7;
 
+/// The same for the mean of all directions, in variances of its noise, and minimum share of its variance that repeats.
+const RING_REPEATS: (f64, f64) = (2.1, 0.5);
+
+/// Length (voxel sides) over which noise at the wall is shared; more values around it than this do not lower the noise of
+/// their mean, as voxels themselves repeat along a wide vessel.
+const SHARED: (f64, f64) = (1.7, 12.0);
+
 /// Larger values, in standard deviations of the noise, count as this one: a single calcification does not repeat.
 const LARGEST: f64 = 2.5;
 
 /// Values (fractions of the contrast) in each direction of each section; NaN where the rim cannot be judged.
-type Rings = Vec<[f64; RAYS]>;
+type Rings<const N: usize = RAYS> = Vec<[f64; N]>;
 
 /// Flags sections within thin struts, which are measured only as well as those within thick ones.
 pub(crate) fn flag_struts(bench: &Bench, places: &[SectionPlane], sections: &mut [Section]) {
@@ -83,11 +93,16 @@ fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec
     let Some(deviation) = deviation(&core).map(|found| found.max(LEAST_NOISE)) else { return none };
     let (noise, largest) = (deviation.powi(2), LARGEST * deviation);
     let rim: Rings = rim.into_iter().map(|ring| ring.map(|value| value.clamp(-largest, largest))).collect();
+    let (means, of_mean) = (ring_means(&rim), noise / patches(&walls, SHARED.0 * rays.voxels.sampling_side));
     let repeats: Vec<bool> = (0..places.len())
         .map(|n| {
             let around = n.saturating_sub(count(COMPARED))..(n + count(COMPARED) + 1).min(places.len());
-            covariance(&rim, around.clone(), 0).is_some_and(|variance| variance > UNEVEN * noise)
-                && repetition(&rim, around, PERIODS.map(count)) > REPEATS * noise
+            let variance = covariance(&rim, around.clone(), 0).unwrap_or(0.0);
+            let variance_of_mean = covariance(&means, around.clone(), 0).unwrap_or(f64::INFINITY);
+            let ring = repetition(&means, around.clone(), PERIODS.map(count));
+            let is_uneven = variance > UNEVEN * noise;
+            is_uneven && repetition(&rim, around, PERIODS.map(count)) > REPEATS * noise
+                || ring > (RING_REPEATS.0 * of_mean).max(RING_REPEATS.1 * variance_of_mean)
         })
         .collect();
     let reach = count(FLAGGED);
@@ -127,6 +142,23 @@ fn walls(places: &[SectionPlane], sections: &[Section], reach: usize) -> Vec<Opt
         .collect()
 }
 
+/// The mean of all directions; NaN where most of them cannot be judged.
+fn ring_means(rings: &Rings) -> Rings<1> {
+    let mean = |ring: &[f64; RAYS]| {
+        let finite: Vec<f64> = ring.iter().copied().filter(|value| value.is_finite()).collect();
+        let is_ring = 2 * finite.len() > RAYS;
+        [if is_ring { finite.iter().sum::<f64>() / finite.len() as f64 } else { f64::NAN }]
+    };
+    rings.iter().map(mean).collect()
+}
+
+/// How many values around the wall have noise of their own; it is shared over `shared` mm.
+fn patches(walls: &[Option<(DVec2, [DVec2; RAYS])>], shared: f64) -> f64 {
+    let radius = |wall: &[DVec2; RAYS]| wall.iter().map(|end| end.length()).sum::<f64>() / RAYS as f64;
+    let mut radii: Vec<f64> = walls.iter().flatten().map(|(_, wall)| radius(wall)).collect();
+    (TAU * median(&mut radii).unwrap_or(0.0) / shared).clamp(1.0, SHARED.1)
+}
+
 fn is_even(sections: &[Section]) -> bool {
     let radii = || sections.iter().filter_map(|section| Some(section.fit.as_ref()?.ellipse.mean));
     radii().fold(0.0, f64::max) <= EVEN * radii().fold(f64::INFINITY, f64::min)
@@ -156,7 +188,11 @@ fn without_trend(rings: &Rings, reach: usize) -> Rings {
 }
 
 /// How much more the values of sections a period apart have in common than those half a period apart.
-fn repetition(rim: &Rings, around: std::ops::Range<usize>, [shortest, longest]: [usize; 2]) -> f64 {
+fn repetition<const N: usize>(
+    rim: &Rings<N>,
+    around: std::ops::Range<usize>,
+    [shortest, longest]: [usize; 2],
+) -> f64 {
     let last = (2 * longest + 1).min(around.len().saturating_sub(8));
     let shared: Vec<f64> =
         (0..=last).map(|apart| covariance(rim, around.clone(), apart).unwrap_or(0.0)).collect();
@@ -171,15 +207,15 @@ fn repetition(rim: &Rings, around: std::ops::Range<usize>, [shortest, longest]: 
 }
 
 /// Mean product of values `apart` sections from each other; None if there are too few.
-fn covariance(rings: &Rings, around: std::ops::Range<usize>, apart: usize) -> Option<f64> {
+fn covariance<const N: usize>(rings: &Rings<N>, around: std::ops::Range<usize>, apart: usize) -> Option<f64> {
     let (mut sum, mut count) = (0.0, 0usize);
     for n in around.start..around.end.saturating_sub(apart) {
-        for ray in 0..RAYS {
+        for ray in 0..N {
             let product = rings[n][ray] * rings[n + apart][ray];
             if product.is_finite() {
                 (sum, count) = (sum + product, count + 1);
             }
         }
     }
-    (count >= 8 * RAYS).then(|| sum / count as f64)
+    (count >= 8 * N).then(|| sum / count as f64)
 }

@@ -112,7 +112,8 @@ impl Basins {
     /// Whether a basin has a value within this number of steps of value `n`, in rows of `count` values.
     fn is_within(&self, n: usize, basin: u32, (steps, count): (isize, usize)) -> bool {
         let (i, j, count) = ((n % count) as isize, (n / count) as isize, count as isize);
-        let mut around = (-steps..=steps).flat_map(|y| (-steps..=steps).map(move |x| (i + x, j + y, x * x + y * y)));
+        let mut around =
+            (-steps..=steps).flat_map(|y| (-steps..=steps).map(move |x| (i + x, j + y, x * x + y * y)));
         around.any(|(x, y, square)| {
             let is_inside = x >= 0 && y >= 0 && x < count && y < count && square <= steps * steps;
             is_inside && self.of[(y * count + x) as usize] == basin

@@ -70,7 +70,7 @@ pub(crate) struct PreparedVessel {
     /// The point spread to assume if none is given or found.
     pub(super) assumed: AssumedSpread,
     pub(super) wall: Option<KnownWall>,
-    wall_source: WallSource,
+    pub(super) wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
     /// Separate fits for the assumed point spread, and for the estimated or given one.
@@ -243,6 +243,7 @@ impl PreparedVessel {
         self.include_other_spreads(voxels, &mut read.sections, &spread, request.stop)?;
         if !read.is_wall_hidden {
             self.include_thin_walls(voxels, &mut read.sections, &spread, request.stop)?;
+            self.include_bright_wall(voxels, &mut read.sections, &spread, request.stop)?;
         }
         let mut sections = std::mem::take(&mut read.sections);
         let others = Lumen::of_others(request.tree, vessel);

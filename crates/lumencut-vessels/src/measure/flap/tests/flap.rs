@@ -53,6 +53,39 @@ fn a_valley_parts_two_basins_unless_it_is_shallow_or_one_side_is_small() {
 }
 
 #[test]
+fn a_hole_in_a_sheet_parts_nothing_unless_it_is_one_value_wide() {
+    let parts = |half: f64| {
+        let found = basins(&map(|place| {
+            let depth = if place.y.abs() < half { 0.08 } else { 0.4 };
+            let valley = depth * (-0.5 * (place.x - 2.0).powi(2) / 0.5).exp();
+            if place.length() < 8.0 { 1.0 - valley } else { 0.0 }
+        }));
+        let at = |x: f64| found.of[map(|_| 0.0).nearest(DVec2::new(x, 4.0)).unwrap()];
+        at(-2.0) != at(5.0)
+    };
+    assert_eq!([parts(0.5 * STEP), parts(3.0)], [true, false]);
+}
+
+#[test]
+fn a_lumen_ends_at_half_of_its_contrast_and_what_is_dim_is_counted() {
+    let bulge = map(|place| match place.length() {
+        length if length < 6.0 => 1.0,
+        _ if (place - DVec2::X * 6.0).length() < 3.0 => 0.4,
+        _ => 0.0,
+    });
+    let own = 7;
+    let mut found =
+        Basins { of: bulge.values.iter().map(|value| if *value > 0.0 { own } else { NONE }).collect() };
+    let far = |near: f64| {
+        let is_far = |n: &usize| bulge.values[*n] == 0.4 && bulge.place(*n).length() > 6.0 + near;
+        (0..COUNT * COUNT).filter(is_far).count() as f64
+    };
+    let dim = found.trim(&bulge, own, (0.0, 0.5), 3) as f64;
+    assert!(dim > far(4.0 * STEP) && dim < far(2.0 * STEP), "{dim}");
+    assert_eq!(found.size(own), bulge.values.iter().filter(|value| **value == 1.0).count());
+}
+
+#[test]
 fn lumens_seen_over_less_than_10_mm_are_left_out() {
     let at: Vec<f64> = (0..60).map(|n| f64::from(n) * 0.5).collect();
     let pair = |area: f64| LumenPair {
