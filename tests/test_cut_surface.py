@@ -180,7 +180,7 @@ def test_a_frame_has_cost_level_and_piece_only_if_asked():
     assert both.has("depth")
     assert not both.has("level")
     np.testing.assert_array_equal(both.depth, frame.depth)
-    with pytest.raises(SettingsError, match="cost, level, piece"):
+    with pytest.raises(SettingsError, match="'cost', 'level', 'piece'"):
         renderer.cut_surface(camera, images=["picture"])
 
 
