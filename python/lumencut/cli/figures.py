@@ -22,7 +22,9 @@ from lumencut.cli.report import bar, say, verbose_option
     metavar="FOLDER",
     help="Folder of the pictures and index.html.",
 )
-@click.option("--only", metavar="N,…", help="Names of figures and tables, such as 1,5,table-2; all by default.")
+@click.option(
+    "--only", metavar="N,…", help="Names of figures and tables, such as 1,5,table-2; all by default."
+)
 @click.option("--quick", is_flag=True, help="Smaller pictures and phantoms.")
 @device_option
 @verbose_option

@@ -133,8 +133,8 @@ class Frame(KeepsReadOnly):
     def cost(self) -> npt.NDArray[np.float32]:
         """The cost z + λ·max(0, d − r) in mm (paper, Eq. 2), float32, shape (H, W).
 
-        It blends the levels of detail like the depth, before the depth filter. λ is ``cost_weight``, z the depth,
-        d the projected distance from the centerline, and r the radius. Only frames of
+        It blends the levels of detail like the depth, before the depth filter. λ is ``cost_weight``, z the
+        depth, d the projected distance from the centerline, and r the radius. Only frames of
         :meth:`Renderer.cut_surface` that name it in ``images`` have it.
         """
         cost: npt.NDArray[np.float32] = self._present("cost", self._cost)

@@ -99,7 +99,7 @@ def with_wireframe(picture: Picture, tree: VesselTree, camera: Camera) -> Pictur
 def _tube(
     points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64]
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Return points on the wall, (n, sides + 1, 3), closed; and the directions to them from the centerline."""
+    """Return points on the wall, (n, sides + 1, 3), and the directions to them from the centerline."""
     tangent = np.gradient(points, axis=0)
     tangent /= np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), 1e-12)
     normal = np.cross(tangent[0], np.eye(3)[np.abs(tangent[0]).argmin()])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from lumencut.evaluation.figures import drawing
 from lumencut.evaluation.figures.drawing import Picture
 from lumencut.evaluation.figures.figure import Figure, Panel
@@ -10,8 +12,6 @@ from lumencut.pictures.renderer import Renderer
 from lumencut.scene.camera import Camera
 from lumencut.scene.settings import Settings
 from lumencut.scene.vessel_tree import VesselTree
-
-import numpy as np
 
 
 def cost_of_a_knot(scenes: Scenes) -> Figure:
@@ -34,7 +34,7 @@ def cost_of_a_knot(scenes: Scenes) -> Figure:
             ),
             Panel(
                 "c",
-                "The cost of Equation 2 in place of the depth, lit from the upper left; little cost is bright.",
+                "The cost of Equation 2 in place of the depth, lit; little cost is bright.",
                 {rule: drawing.relief(frame.cost, side) for rule, frame in found.items()},
             ),
         ],
@@ -112,8 +112,8 @@ def steps_of_the_method(scenes: Scenes) -> Figure:
             ),
             Panel(
                 "b",
-                "Pieces of the finest level: stripes dark brown, wedges light brown, half-planes dark blue, full "
-                "planes light blue.",
+                "Pieces of the finest level: stripes dark brown, wedges light brown, half-planes dark blue, "
+                "full planes light blue.",
                 kinds,
             ),
             Panel("c", "Depth after the filter; near is bright.", images["depth"]),

@@ -23,9 +23,9 @@ def html_page(figures: Sequence[Figure], version: str) -> str:
         '<html lang="en"><head><meta charset="utf-8">',
         f"<title>Figures of Curved Surface Reformation</title><style>{_STYLE}</style></head><body>",
         "<h1>Figures of Curved Surface Reformation</h1>",
-        "<p>The figures and tables of Auzinger et al., “Vessel Visualization using Curved Surface Reformation”, "
-        "IEEE TVCG 2013, doi:10.1109/TVCG.2013.215, made again from open data and phantoms by Lumencut "
-        f"{escape(version)}. Left: the paper's rules. Right: Lumencut's defaults. Not for diagnosis.</p>",
+        "<p>The figures and tables of Auzinger et al., “Vessel Visualization using Curved Surface "
+        "Reformation”, IEEE TVCG 2013, doi:10.1109/TVCG.2013.215, made again from open data and phantoms by "
+        f"Lumencut {escape(version)}. Left: the paper's rules. Right: Lumencut's defaults. Not for diagnosis.</p>",
     ]
     for figure in figures:
         parts += [f"<h2>{escape(figure.name)}</h2>", f"<p>{escape(figure.caption)}</p>"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from lumencut.reformations.tree_reformations import MPCPR, cr_method
 from lumencut.scene.camera import VIEWS, Camera
 from lumencut.scene.settings import Settings
 
-#: Radius offset and arc-length threshold of CR in the paper's figures (pixels), in pictures of about 1000 pixels.
+#: Radius offset and arc-length threshold of CR in the paper's pictures of about 1000 pixels.
 _CR_OF_LEGS, _CR_OF_NECK, _PAPER_PIXELS = (150.0, 300.0), (50.0, 150.0), 1000.0
 _UPWARDS = (0.0, 0.0, 1.0)
 
@@ -40,7 +39,9 @@ def bifurcation(scenes: Scenes) -> Figure:
             Camera.inferior(scene, size),
         ),
     ]
-    panels = [Panel("a", "The whole volume (DVR), and the vessel walls as a wireframe.", {"": _rendered(scenes)})]
+    panels = [
+        Panel("a", "The whole volume (DVR), and the vessel walls as a wireframe.", {"": _rendered(scenes)})
+    ]
     for part, caption, camera in views:
         panels.append(Panel(part, caption, _by_both(renderer, camera)))
     shown = "the CT of the demo" if scenes.has_ct else "a phantom, as the CT of the demo was not available"
@@ -54,7 +55,7 @@ def bypass(scenes: Scenes) -> Figure:
     turned = camera.rotated(math.radians(35)).rotated(math.radians(-25), "right")
     turned = Camera.fitted(renderer.scene, turned.direction, turned.up, scenes.tall_size)
     panels = [
-        Panel("a", "mpCPR: the bypass runs along the rows and appears too thin.", _by_mpcpr(renderer, camera)),
+        Panel("a", "mpCPR: the bypass runs along the rows, so it is thin.", _by_mpcpr(renderer, camera)),
         Panel(
             "b",
             "CR: the bypass has its width, but its discs break the tissue around it.",
@@ -72,9 +73,7 @@ def neck(scenes: Scenes) -> Figure:
     camera = scenes.anterior(renderer)
     panels = [
         Panel("a", "mpCPR: farther vessels hide nearer ones.", _by_mpcpr(renderer, camera)),
-        Panel(
-            "b", "CR: surroundings cut off vessels behind them.", _by_cr(renderer, camera, _CR_OF_NECK)
-        ),
+        Panel("b", "CR: surroundings cut off vessels behind them.", _by_cr(renderer, camera, _CR_OF_NECK)),
         Panel("c", "CSR: nearer vessels lie in front.", _by_both(renderer, camera, context=None)),
     ]
     return Figure("Figure 8", "Vessels of the neck: a phantom.", panels)
@@ -110,4 +109,4 @@ def _by_cr(renderer: Renderer, camera: Camera, pixels: tuple[float, float]) -> d
 
 def _without_lines() -> Settings:
     """Return settings of pictures without silhouettes, which only CSR has in the paper."""
-    return replace(Settings(), silhouettes=False, context=None)
+    return Settings(silhouettes=False, context=None)

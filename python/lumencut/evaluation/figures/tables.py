@@ -71,9 +71,7 @@ def criteria(scenes: Scenes) -> Figure:
     renderer = scenes.neck
     assert renderer.tree is not None
     methods = ("csr", "csr-paper", "mpcpr", "cr")
-    found = evaluate(
-        renderer.volume, renderer.tree, methods, _VIEWS, size=_VIEW_SIZE, device=scenes.device
-    )
+    found = evaluate(renderer.volume, renderer.tree, methods, _VIEWS, size=_VIEW_SIZE, device=scenes.device)
     table = [["", *(str(row["method"]) for row in found.table)]]
     for column, words in _CRITERIA.items():
         numbers = [row[column] for row in found.table]
