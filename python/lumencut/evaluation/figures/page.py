@@ -25,7 +25,8 @@ def html_page(figures: Sequence[Figure], version: str) -> str:
         "<h1>Figures of Curved Surface Reformation</h1>",
         "<p>The figures and tables of Auzinger et al., “Vessel Visualization using Curved Surface "
         "Reformation”, IEEE TVCG 2013, doi:10.1109/TVCG.2013.215, made again from open data and phantoms by "
-        f"Lumencut {escape(version)}. Left: the paper's rules. Right: Lumencut's defaults. Not for diagnosis.</p>",
+        f"Lumencut {escape(version)}. Left: the paper's rules. Right: Lumencut's defaults.</p>",
+        "<p>Not for diagnosis.</p>",
     ]
     for figure in figures:
         parts += [f"<h2>{escape(figure.name)}</h2>", f"<p>{escape(figure.caption)}</p>"]
