@@ -40,7 +40,8 @@ def grey(values: npt.NDArray[np.floating]) -> Picture:
     """Return values as grey, the smallest bright: near, or of little cost."""
     low, high = np.percentile(values, _SPAN)
     share = np.clip((high - values) / max(high - low, 1e-6), 0, 1)
-    return np.repeat((40 + 215 * share).astype(np.uint8)[..., None], 3, axis=2)
+    picture: Picture = np.repeat((40 + 215 * share).astype(np.uint8)[..., None], 3, axis=2)
+    return picture
 
 
 def relief(values: npt.NDArray[np.floating], spacing: float) -> Picture:
@@ -66,12 +67,14 @@ def levels(level: npt.NDArray[np.floating]) -> Picture:
 
 def pieces(piece: npt.NDArray[np.integer]) -> Picture:
     """Return kinds of pieces in their colours."""
-    return np.array(PIECE_COLORS, np.uint8)[piece]
+    picture: Picture = np.array(PIECE_COLORS, np.uint8)[piece]
+    return picture
 
 
 def zones(vessel: npt.NDArray[np.integer]) -> Picture:
     """Return the zones of vessels in their colours."""
-    return np.array(ZONE_COLORS, np.uint8)[vessel % len(ZONE_COLORS)]
+    picture: Picture = np.array(ZONE_COLORS, np.uint8)[vessel % len(ZONE_COLORS)]
+    return picture
 
 
 def with_centerlines(picture: Picture, tree: VesselTree, camera: Camera) -> Picture:
