@@ -50,7 +50,8 @@ def relief(values: npt.NDArray[np.floating], spacing: float) -> Picture:
     down, right = np.gradient(np.clip(values, low, high), spacing)
     # The light comes from the left, from above, and from the viewer.
     light = (1 + 0.6 * right + 0.6 * down) / np.sqrt((1 + right**2 + down**2) * (1 + 2 * 0.6**2))
-    return (grey(values) * np.clip(0.35 + 0.65 * light, 0, 1)[..., None]).astype(np.uint8)
+    picture: Picture = (grey(values) * np.clip(0.35 + 0.65 * light, 0, 1)[..., None]).astype(np.uint8)
+    return picture
 
 
 def lit(colors: Picture, depth: npt.NDArray[np.floating], spacing: float) -> Picture:
