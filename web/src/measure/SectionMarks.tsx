@@ -70,7 +70,9 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
   const [outer, lumens] = [profile.outer, profile.lumens].map((words) => words[nearestSection(profile, at)]);
   const section = isShown ? found?.section : null;
   const pulled = pulledContour.value;
-  const shown = section ? contours({ ...section, contour: pulled?.points ?? section.contour }, numbers.counts) : [];
+  const shown = section
+    ? contours({ ...section, contour: pulled?.points ?? section.contour }, numbers.counts)
+    : [];
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
   return (
     <>

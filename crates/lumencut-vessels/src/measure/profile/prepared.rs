@@ -219,6 +219,17 @@ impl PreparedVessel {
 
     /// Wall level (in the volume's unit) that the sections show without their prior; None if walls are not visible.
     pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
+        self.wall_level_within([0.0, 1.0], voxels, fwhm, stop)
+    }
+
+    /// The same of a part of the vessel, as fractions of its sections.
+    pub(super) fn wall_level_within(
+        &self,
+        part: [f64; 2],
+        voxels: &Voxels,
+        fwhm: f64,
+        stop: Stop,
+    ) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
         if hidden.is_some() {
@@ -226,7 +237,8 @@ impl PreparedVessel {
         }
         let (_, fitted) = self.fitted(voxels, fwhm);
         let inflation = fitted.inflation(&self.bench(voxels, fwhm, None), &texture);
-        let level = unpooled_level(&fitted.arc_lengths(), &fits, &known, inflation);
+        let [from, to] = part.map(|share| (share * fits.len() as f64) as usize);
+        let level = unpooled_level(&fitted.arc_lengths()[from..to], &fits[from..to], &known, inflation);
         Ok(level.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
     }
 
