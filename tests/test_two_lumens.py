@@ -71,8 +71,9 @@ def test_numbers_of_both_lumens(profile):
 
 def test_a_line_in_the_other_lumen_swaps_both(profile):
     swapped = measure(volume(), line(7.0), fwhm=1.0)
-    assert np.nanmedian(swapped.area_own_lumen) == pytest.approx(np.nanmedian(profile.area_other_lumen), rel=0.02)
-    assert np.nanmedian(swapped.area_other_lumen) == pytest.approx(np.nanmedian(profile.area_own_lumen), rel=0.02)
+    for name, opposite in (("own", "other"), ("other", "own")):
+        areas = [getattr(one, f"area_{each}_lumen") for one, each in ((swapped, name), (profile, opposite))]
+        assert np.nanmedian(areas[0]) == pytest.approx(np.nanmedian(areas[1]), rel=0.02)
 
 
 def test_files_and_findings_state_both_lumens(profile, tmp_path):

@@ -33,6 +33,7 @@ mod renderer;
 mod report;
 mod settings;
 mod spiral;
+mod stenosis;
 mod suggested_names;
 mod tracing;
 mod tree;
@@ -78,7 +79,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<untangled::Untangled>()?;
     module.add_class::<kept_profiles::KeptProfiles>()?;
     module.add_class::<measuring::Profile>()?;
-    module.add_class::<measuring::Stenosis>()?;
+    module.add_class::<stenosis::Stenosis>()?;
     module.add_class::<tree_findings::TreeFindings>()?;
     module.add_function(wrap_pyfunction!(tree_findings::tree_findings, module)?)?;
     module.add_class::<marked::Grade>()?;

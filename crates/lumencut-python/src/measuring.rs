@@ -13,7 +13,7 @@ use lumencut::measure::profile::request::with_progress as counted;
 use lumencut::measure::profile::{self, CONTOUR_POINTS};
 use lumencut::measure::stenosis::groups::Territory;
 use lumencut::measure::stenosis::suggestions::Spot;
-use lumencut::measure::stenosis::{self, Compared, Method};
+use lumencut::measure::stenosis::{Compared, Method};
 use lumencut::measure::uncertainty::Part;
 use lumencut::measure_words;
 use lumencut::named::Named;
@@ -25,6 +25,7 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::pool;
+use crate::stenosis::Stenosis;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::tree_findings::TreeFindings;
 use crate::tree_findings::wall_request;
@@ -309,49 +310,6 @@ impl Profile {
     #[getter]
     fn fwhm(&self) -> (f64, String) {
         (self.0.fwhm, measure_words::of_source(&self.0.fwhm_source))
-    }
-}
-
-#[pyclass(frozen, module = "lumencut._lumencut")]
-pub struct Stenosis(pub stenosis::Stenosis);
-
-#[pymethods]
-impl Stenosis {
-    /// Percent, place (mm), diameter (mm) and its uncertainty, reference (mm), and uncertainty of the percentage.
-    fn numbers(&self) -> (f64, f64, f64, f64, f64, f64) {
-        let graded = &self.0;
-        let unsure = graded.percent_uncertainty;
-        (graded.percent, graded.at, graded.diameter, graded.uncertainty, graded.reference, unsure)
-    }
-
-    /// Arc length and diameter of each reference (mm).
-    #[getter]
-    fn references(&self) -> Vec<(f64, f64)> {
-        self.0.references.iter().map(|[at, diameter]| (*at, *diameter)).collect()
-    }
-
-    #[getter]
-    fn method(&self) -> &'static str {
-        self.0.method.name()
-    }
-
-    #[getter]
-    fn doubts(&self) -> Vec<String> {
-        measure_words::of_doubts(&self.0.doubts)
-    }
-
-    fn words(&self) -> String {
-        measure_words::of_stenosis(&self.0)
-    }
-
-    fn doubtful_words(&self) -> String {
-        measure_words::of_doubtful_stenosis(&self.0)
-    }
-
-    fn group(&self, vessel: &str) -> PyResult<String> {
-        let group =
-            Territory::named("vessel of the group", vessel).and_then(|territory| self.0.group(territory));
-        group.map_err(to_python)
     }
 }
 

@@ -51,7 +51,8 @@ class SectionView:
         """Return one section (H, W, 4): the measured plane, the contour, numbers with units, a scale.
 
         The contour is cyan if the section counts for narrowest and widest places, orange if flags exclude it;
-        a dashed pink one is the outer wall; green and violet are both lumens at a flap. Without contours there are no numbers. `words` stand above them.
+        a dashed pink one is the outer wall; green and violet are both lumens at a flap. Without contours
+        there are no numbers. `words` stand above them.
         """
         profile, spacing = one.profile, _lumencut.section_spacing(one.profile._core, self.side)
         origin, across = profile.center[number], profile.axes[number]
