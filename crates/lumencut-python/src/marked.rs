@@ -7,7 +7,8 @@ use lumencut::profile_marks::{self, Marked};
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
-use crate::measuring::{Profile, Stenosis};
+use crate::measuring::Profile;
+use crate::stenosis::Stenosis;
 
 #[derive(FromPyObject)]
 pub(crate) struct MarkedParts {

@@ -8,7 +8,8 @@ use lumencut::profile_record::ProfileRecord;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
-use crate::measuring::{Profile, Stenosis};
+use crate::measuring::Profile;
+use crate::stenosis::Stenosis;
 
 /// All data of a profile as text.
 #[pyfunction]
