@@ -70,7 +70,7 @@ pub(crate) struct PreparedVessel {
     /// The point spread to assume if none is given or found.
     pub(super) assumed: AssumedSpread,
     pub(super) wall: Option<KnownWall>,
-    pub(super) wall_source: WallSource,
+    wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
     /// Separate fits for the assumed point spread, and for the estimated or given one.
@@ -219,17 +219,6 @@ impl PreparedVessel {
 
     /// Wall level (in the volume's unit) that the sections show without their prior; None if walls are not visible.
     pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
-        self.wall_level_within([0.0, 1.0], voxels, fwhm, stop)
-    }
-
-    /// The same of a part of the vessel, as fractions of its sections.
-    pub(super) fn wall_level_within(
-        &self,
-        part: [f64; 2],
-        voxels: &Voxels,
-        fwhm: f64,
-        stop: Stop,
-    ) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
         if hidden.is_some() {
@@ -237,8 +226,7 @@ impl PreparedVessel {
         }
         let (_, fitted) = self.fitted(voxels, fwhm);
         let inflation = fitted.inflation(&self.bench(voxels, fwhm, None), &texture);
-        let [from, to] = part.map(|share| (share * fits.len() as f64) as usize);
-        let level = unpooled_level(&fitted.arc_lengths()[from..to], &fits[from..to], &known, inflation);
+        let level = unpooled_level(&fitted.arc_lengths(), &fits, &known, inflation);
         Ok(level.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
     }
 
@@ -255,7 +243,6 @@ impl PreparedVessel {
         self.include_other_spreads(voxels, &mut read.sections, &spread, request.stop)?;
         if !read.is_wall_hidden {
             self.include_thin_walls(voxels, &mut read.sections, &spread, request.stop)?;
-            self.include_bright_wall(voxels, &mut read.sections, &spread, request.stop)?;
         }
         let mut sections = std::mem::take(&mut read.sections);
         let others = Lumen::of_others(request.tree, vessel);
