@@ -123,6 +123,26 @@ impl Surroundings {
         self.check(voxels, click, value, self.mistaken(value))
     }
 
+    /// As [`Surroundings::check_alone`], and rejects a first click in values of no known unit that is no brighter than most of
+    /// its surroundings, if lumen is near.
+    pub(crate) fn check_first(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
+        self.check_alone(voxels, click)?;
+        let value = value_at(voxels, click);
+        let Hit { lumen, .. } = self.hit(voxels, click, value);
+        let least = self.least_bright();
+        let is_dark = !self.is_hounsfield && lumen <= self.most && lumen < least;
+        if !is_dark || self.nearest_lumen(voxels, click).is_none() {
+            return Ok(());
+        }
+        let expected = format!("lumen, brighter than {least:.0}");
+        self.check(voxels, click, value, Some((OTHER_MISTAKES[1], expected)))
+    }
+
+    /// The least value that surely looks like lumen, if the unit is unknown.
+    fn least_bright(&self) -> f64 {
+        self.tissue + 0.4 * (self.bright - self.tissue)
+    }
+
     /// Moves rejected clicks to adjacent lumen, which the user probably meant. If there is none, the click stays.
     pub(crate) fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
         let is_taken = |place: DVec3| self.mistaken(value_at(voxels, place)).is_none();
@@ -216,11 +236,8 @@ impl Surroundings {
 
     /// The nearest position within 10 mm that is surrounded by lumen values.
     fn nearest_lumen(&self, voxels: &Voxels, click: DVec3) -> Option<DVec3> {
-        let (least, most) = if self.is_hounsfield {
-            (SOFT_TISSUE * 1.5, BONE)
-        } else {
-            (self.tissue + 0.4 * (self.bright - self.tissue), f64::MAX)
-        };
+        let (least, most) =
+            if self.is_hounsfield { (SOFT_TISSUE * 1.5, BONE) } else { (self.least_bright(), f64::MAX) };
         let is_bright = |value: f32| (least..most).contains(&f64::from(value));
         let mut near = voxels.ball(click, 10.0);
         near.retain(|(_, value)| is_bright(*value));
