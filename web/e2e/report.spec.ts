@@ -51,7 +51,7 @@ test('a report of a marked place without a percentage says so, and lists suggest
     tube.viewer.page.waitForEvent('download'),
     tube.button('Save report').click(),
   ]);
-  const words = 'No percentage: Mark a reference: where the vessel is normal.';
+  const words = 'No percentage: mark a reference where the vessel is normal.';
   await expect(tube.viewer.page.getByTestId('told')).toContainText(`.html. ${words}`);
   const html = readFileSync(await download.path(), 'utf-8');
   expect(html).toContain(words);

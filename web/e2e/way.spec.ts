@@ -50,7 +50,7 @@ test('by mouse, from a scan file to the report', async ({ browser }) => {
   await button(viewer, 'Measure').click();
   // In a stent no safe reference may be suggested; then the page says so, and the user marks one.
   await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click();
-  const told = /No percentage: Mark a reference: where the vessel is normal\./;
+  const told = /No percentage: mark a reference where the vessel is normal\./;
   await expect(stenosis(viewer)).toHaveText(new RegExp(`${GRADED.source}|${told.source}`));
   await viewer.rest();
   await viewer.screenshot('way-4-measured');
