@@ -96,6 +96,7 @@ fn a_first_click_in_tissue_of_mr_is_refused_with_the_nearest_lumen() {
     let refused = tracer.check_click(&volume, DVec3::new(0.0, 11.0, 0.0)).unwrap_err();
     assert!(refused.found.starts_with("tissue, or blood without signal"), "{refused}");
     assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
+    assert!(tracer.check_click(&volume, DVec3::new(0.0, 20.0, 0.0)).is_err(), "far from lumen, too");
     // A second click in tissue is refused because of the first one, and lines between good clicks are traced.
     let ends = [DVec3::Z * -12.0, DVec3::Z * 12.0];
     assert!(traced(&volume, &ends).is_ok());

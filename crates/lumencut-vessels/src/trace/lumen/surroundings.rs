@@ -38,6 +38,9 @@ const SNAP: f64 = 2.0;
 /// Minimum fraction of the surroundings that must be darker than the lumen.
 const DARKER: f64 = 0.75;
 
+/// Surroundings contain something far brighter than tissue if it exceeds the tissue by this multiple of the noise.
+const CLEAR_NOISES: f64 = 8.0;
+
 /// What a click hit that is far brighter, or no brighter, than the lumen. Bone and slow blood are dark in MR.
 const CT_MISTAKES: [&str; 2] = ["bone, metal or calcium", "tissue, or blood without contrast medium"];
 const OTHER_MISTAKES: [&str; 2] =
@@ -124,14 +127,14 @@ impl Surroundings {
     }
 
     /// As [`Surroundings::check_alone`], and rejects a first click in values of no known unit that is no brighter than most of
-    /// its surroundings, if lumen is near.
+    /// its surroundings, if these contain something far brighter.
     pub(crate) fn check_first(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
         self.check_alone(voxels, click)?;
         let value = value_at(voxels, click);
-        let Hit { lumen, .. } = self.hit(voxels, click, value);
+        let Hit { lumen, noise, .. } = self.hit(voxels, click, value);
         let least = self.least_bright();
-        let is_dark = !self.is_hounsfield && lumen <= self.most && lumen < least;
-        if !is_dark || self.nearest_lumen(voxels, click).is_none() {
+        let is_clear = self.bright - self.tissue > CLEAR_NOISES * noise;
+        if self.is_hounsfield || !is_clear || lumen > self.most || lumen >= least {
             return Ok(());
         }
         let expected = format!("lumen, brighter than {least:.0}");
