@@ -138,40 +138,28 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     assert_eq!(whole["doubts"], json!([]));
 }
 
-const NO_REFERENCE: &str = "No percentage: mark a reference where the vessel is normal.";
+const NO_REFERENCE: &str = "mark a reference where the vessel is normal.";
 
-/// The number that is known comes first.
 #[test]
 fn a_place_that_is_not_graded_has_its_diameter_and_the_reason() {
     let mut study = tube();
     let line = line_of(&study, 0);
     let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
     let grade = |text| as_json(GradeMessage::of(&marks(text).marked().expect("marks"), profile));
-    let known = |at: f64| of_diameter(profile.diameter_at(at).expect("measured"), at);
-    for (given, words) in [
-        (json!({"references": [5.0]}), "No percentage: mark the place of the stenosis.".to_owned()),
-        (json!({"at": 18.0}), format!("{}. {NO_REFERENCE}", known(18.0))),
-        (json!({"at": 18.0, "method": "area", "original": 8.0}), format!("{}. {NO_REFERENCE}", known(18.0))),
-        (
-            json!({"at": 18.0, "references": [5.0], "method": "ecst"}),
-            format!(
-                "{}. No percentage: ECST needs the assumed original diameter at that place.",
-                known(18.0)
-            ),
-        ),
+    let known = of_diameter(profile.diameter_at(18.0).expect("measured"), 18.0) + ". ";
+    for (given, reason) in [
+        (json!({"at": 18.0}), NO_REFERENCE),
+        (json!({"at": 18.0, "method": "area", "original": 8.0}), NO_REFERENCE),
+        (json!({"at": 18.0, "method": "ecst"}), "ECST needs the assumed original diameter at that place."),
         (
             json!({"at": 18.0, "references": [99.0]}),
-            format!(
-                "{}. No percentage: reference of the stenosis: found 99 mm; expected an arc length from 0 to 35.000 mm",
-                known(18.0)
-            ),
+            "reference of the stenosis: found 99 mm; expected an arc length from 0 to 35.000 mm",
         ),
-        (
-            json!({"at": 99.0}),
-            "No percentage: place on the vessel: found 99 mm; expected an arc length from 0 to 35.000 mm"
-                .to_owned(),
-        ),
+        (json!({"references": [5.0]}), "mark the place of the stenosis."),
+        (json!({"at": 99.0}), "place on the vessel: found 99 mm; expected an arc length from 0 to 35.000 mm"),
     ] {
+        let first = if given["at"] == 18.0 { known.as_str() } else { "" };
+        let words = format!("{first}No percentage: {reason}");
         assert_eq!(grade(given), json!({"stenosis": null, "not_graded": words, "narrower": null}));
     }
     // If nothing is marked, nothing is missing.
