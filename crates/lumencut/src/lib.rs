@@ -34,6 +34,7 @@ pub mod measure_words;
 pub mod mends;
 pub mod method;
 pub mod misplaced;
+pub(crate) mod narrower;
 pub mod not_measured;
 pub mod not_suggested;
 pub mod parts;

@@ -18,7 +18,7 @@ pub(crate) enum Column<'a> {
 }
 
 /// The columns of a profile by name, except its flags.
-pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 24] {
+pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 25] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
         ("diameter_min", Column::Numbers(&mut profile.diameter_min)),
@@ -43,6 +43,7 @@ pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 24]
         ("fwhm", Column::Number(&mut profile.fwhm)),
         ("fwhm_deviation", Column::Number(&mut profile.fwhm_deviation)),
         ("on_vessel", Column::Points(&mut profile.on_vessel)),
+        ("line_values", Column::Numbers(&mut profile.line_values)),
         ("without_wall", Column::Pairs(&mut profile.without_wall)),
     ]
 }
@@ -150,12 +151,13 @@ pub(crate) fn empty() -> Profile {
         fwhm_source: Source::Given,
         wall_source: WallSource::NotAsked,
         on_vessel: Vec::new(),
+        line_values: Vec::new(),
         without_wall: Vec::new(),
     }
 }
 
 /// The numbers of sections of all columns, which are equal in a profile.
-pub(crate) fn lengths(profile: &Profile) -> [usize; 21] {
+pub(crate) fn lengths(profile: &Profile) -> [usize; 22] {
     [
         profile.arc_length.len(),
         profile.diameter_min.len(),
@@ -178,5 +180,6 @@ pub(crate) fn lengths(profile: &Profile) -> [usize; 21] {
         profile.inscribed_radius.len(),
         profile.levels.len(),
         profile.on_vessel.len(),
+        profile.line_values.len(),
     ]
 }

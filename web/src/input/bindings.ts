@@ -238,6 +238,13 @@ export function actionOfKey(name: string, modifier: Modifier = ''): Action | nul
   return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
 }
 
+/** The key that the user means: Shift makes capitals, Caps Lock does not. */
+export function keyOf({ key, shiftKey }: Pick<KeyboardEvent, 'key' | 'shiftKey'>): string {
+  const [small, capital] = [key.toLowerCase(), key.toUpperCase()];
+  const isLetter = key.length === 1 && small !== capital;
+  return isLetter ? (shiftKey ? capital : small) : key;
+}
+
 export function inputName(row: Binding): string {
   const name = row.gesture === 'key' ? keyName(row.key ?? '') : buttonName(row);
   return row.modifier ? `${row.modifier}+${name}` : name;

@@ -21,6 +21,13 @@ export const document_ = signal<Document>(EMPTY);
 /** The document as it was last saved or opened. Later changes would be lost on closing. */
 export const saved = signal<Document>(EMPTY);
 
+/** The document as the files of the scan gave it; to keep it would keep nothing of the user. */
+export const given = signal<Document>(EMPTY);
+
+export function setGiven(document: Document): void {
+  given.value = document;
+}
+
 export function markSaved(document: Document): void {
   saved.value = document;
 }

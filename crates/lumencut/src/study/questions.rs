@@ -160,7 +160,7 @@ of_the_study {
 
     /// The result at a line's marked place: the stenosis, or why it is not graded.
     [Turn::First] grade { line: usize, marks: MarksMessage } -> GradeMessage =
-        marks.marked()?.grade(measured(study, line, asking)?).into();
+        GradeMessage::of(&marks.marked()?, measured(study, line, asking)?);
 
     /// The doubts that a percentage would have if it were graded from these places, one sentence each.
     [Turn::First] doubts { line: usize, compared: ComparedMessage } -> Vec<String> =

@@ -204,6 +204,7 @@ fn a_contour_of_other_rays_and_too_many_sections_are_refused() {
         &mut many.at_most,
         &mut many.uncertainty,
         &mut many.inscribed_radius,
+        &mut many.line_values,
     ] {
         numbers.resize(count, f64::NAN);
     }

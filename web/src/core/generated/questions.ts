@@ -296,7 +296,10 @@ export type FlagLook = {
 
 export type Grade = {
   readonly stenosis: Stenosis | null;
+  /** The diameter, if a place is marked, and why there is no percentage. */
   readonly not_graded: string | null;
+  /** A place that is narrower than the marked one, in one sentence. */
+  readonly narrower: string | null;
 };
 
 export type Histogram = {

@@ -13,6 +13,7 @@ use crate::measure::along::calcified::settle;
 use crate::measure::along::contradicted::flag_contradicted;
 use crate::measure::along::dim_plaque::flag_dim_plaque;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
+use crate::measure::along::rings::flag_stents;
 use crate::measure::along::struts::flag_struts;
 use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
@@ -269,6 +270,7 @@ impl PreparedVessel {
         settle(&self.places, &mut sections, bench.fwhm);
         flag_contradicted(bench, &self.places, &mut sections);
         Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
+        flag_stents(bench, &self.places, &mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,
             Some(by_others) => self.wall_source.pooled(by_others),
@@ -283,7 +285,8 @@ impl PreparedVessel {
         });
         let found = outer_walls(voxels, (&profile.inner(&self.places), middle), &bench.blur, request.stop)?;
         let profile = profile.with_outer(found);
-        Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
+        let line_values = self.places.iter().map(|place| f64::from(voxels.at(place.origin))).collect();
+        Ok(Profile { line_values, without_wall: self.part.left_out(&self.places), ..profile })
     }
 
     fn wall_by_others(
