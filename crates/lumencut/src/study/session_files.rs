@@ -10,6 +10,7 @@ use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::HeldVolume;
 use crate::study::lines::{Line, Lines, NamedLine};
 use crate::study::open_study::Study;
+use crate::study::planes::check_slices;
 
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
 
@@ -80,6 +81,9 @@ impl Study {
             let [ni, nj, nk] = scan.size;
             let found = format!("a session of a scan of {ni} × {nj} × {nk} voxels in another place");
             return Err(not_of_scan(name, &found, "a session of the open scan"));
+        }
+        if let Some(slices) = file.session.view.as_ref().and_then(|view| view.slices.as_ref()) {
+            check_slices(slices)?;
         }
         taken(file, &mut self.lines)
     }
