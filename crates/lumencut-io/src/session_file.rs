@@ -20,8 +20,8 @@ pub use view::{Camera, Picked, SliceAxes, Slices, View};
 /// Name of the field that is added to the markups file.
 pub const FIELD: &str = "LumencutSession";
 
-/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, hidden bone, contours, noted
-/// diameters, and planes of slices. Files use
+/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, hidden bone, contours and lines by hand,
+/// noted diameters, and planes of slices. Files use
 /// the lowest sufficient version, so that older programs reject only files that they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
@@ -82,7 +82,8 @@ impl Session {
     fn least_format(&self) -> u32 {
         let has_diameters = |marks: &Marks| !(marks.diameters_mm.is_empty() && marks.confirmed_mm.is_empty());
         let marks = self.vessels.iter().filter_map(|vessel| vessel.marks.as_ref());
-        let has_contours = self.vessels.iter().any(|vessel| !vessel.contours_mm.is_empty());
+        let is_by_hand = |vessel: &VesselState| !vessel.contours_mm.is_empty() || vessel.by_hand.is_some();
+        let has_contours = self.vessels.iter().any(is_by_hand);
         let has_slices = self.view.as_ref().is_some_and(|view| view.slices.is_some());
         let has_more = self.one_millimetre_assumed || self.bone_hidden || has_contours || has_slices;
         FORMATS[usize::from(has_more || marks.into_iter().any(has_diameters))]
@@ -124,6 +125,10 @@ pub struct VesselState {
     /// Whether each point lies on a bridged stretch without lumen.
     #[cfg_attr(feature = "types", ts(skip))]
     pub bridged: Option<Vec<bool>>,
+    /// Whether the reader moved each point of the line; exists since version 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "types", ts(skip))]
+    pub by_hand: Option<Vec<bool>>,
     /// Marks that the reader set, if any.
     pub marks: Option<Marks>,
     /// Contours that the reader drew: arc length, centre (to the right and down in the section), and distances from the centre at
@@ -274,6 +279,9 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
             Session { vessels, .. } if vessels.iter().any(|vessel| !vessel.contours_mm.is_empty()) => {
                 "contours"
             }
+            Session { vessels, .. } if vessels.iter().any(|vessel| vessel.by_hand.is_some()) => {
+                "a line by hand"
+            }
             Session { view: Some(View { slices: Some(_), .. }), .. } => "planes of slices",
             _ => "noted diameters",
         };
@@ -290,6 +298,7 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
         check_color(&subject, &state.color)?;
         check_count(&subject, "confidences", state.confidence.as_deref(), count)?;
         check_count(&subject, "bridged points", state.bridged.as_deref(), count)?;
+        check_count(&subject, "points by hand", state.by_hand.as_deref(), count)?;
         if let Some(marks) = &state.marks {
             check_marks(&subject, marks)?;
         }

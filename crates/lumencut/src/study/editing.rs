@@ -42,6 +42,7 @@ impl Study {
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
             Edit::Join { id, other } => self.join_vessels(&mut draft, *id, *other).map(|()| false),
+            Edit::Reshape { id, how } => self.reshape_vessel(&mut draft, *id, how).map(|()| false),
             Edit::AddClickOnLine { id, point } => {
                 self.add_click_on_line(&mut draft, *id, *point).map(|()| true)
             }
@@ -166,6 +167,7 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
         | Edit::AddMask
         | Edit::Cut { .. }
         | Edit::Join { .. }
+        | Edit::Reshape { .. }
         | Edit::AddClickOnLine { .. } => {}
     }
     edit.is_of_clicks()

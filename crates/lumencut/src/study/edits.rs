@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
+use crate::study::reshaping::Reshaping;
 use crate::study::trace_report::Told;
 
 /// An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm.
@@ -58,6 +59,11 @@ pub(crate) enum Edit {
     Cut {
         id: u32,
         at: f64,
+    },
+    /// Moves or smooths the line of a vessel by hand. It then has no clicks; the ends of vessels that meet it follow.
+    Reshape {
+        id: u32,
+        how: Reshaping,
     },
     /// Joins a second vessel to the first, which keeps name and colour.
     Join {
@@ -138,6 +144,8 @@ impl Edit {
             Self::HideBone { hidden: false } => "show bone",
             Self::Cut { .. } => "cut a vessel",
             Self::Join { .. } => "join two vessels",
+            Self::Reshape { how: Reshaping::Bend { .. }, .. } => "move a line",
+            Self::Reshape { how: Reshaping::Smooth { .. }, .. } => "smooth a line",
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),
             Self::AddBranches { .. } => "add all branches from here",
             Self::AddWholeVessel { .. } => "add a whole vessel",

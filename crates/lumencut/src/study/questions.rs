@@ -33,6 +33,7 @@ use crate::study::reformations::{ReformationMessage, ReformedPicture};
 use crate::study::regions::{RegionRow, regions};
 use crate::study::report_messages::{Findings, ReportMessage};
 use crate::study::session_files::SessionContent;
+use crate::study::reshaping::Reshaping;
 use crate::study::settings::{LookRow, SettingRow, looks, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
@@ -137,6 +138,9 @@ of_the_study {
 
     /// The points of a line, with their radii and other data.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
+
+    /// The points of a line after it was moved or smoothed by hand. Nothing is kept.
+    [Turn::First] reshaped { line: usize, how: Reshaping } -> Vec<Vector> = study.reshaped(line, &how)?;
 
     /// Adds a line, such as a line of a saved session; returns the number that it gets.
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;

@@ -35,6 +35,7 @@ pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>>
         let line = lines.get(named.line)?;
         state.confidence.clone_from(&line.confidence);
         state.bridged.clone_from(&line.bridged);
+        state.by_hand.clone_from(&line.by_hand);
         // The session stores confidence with the vessel, so the line omits it.
         file.lines.push(centerlines::Line { confidence: None, ..line.in_file(&named.name) });
     }
@@ -110,6 +111,7 @@ fn taken(file: SessionFile, lines: &mut Lines) -> Result<SessionContent> {
             radius: curve.radius,
             confidence: state.confidence.take(),
             bridged: state.bridged.take(),
+            by_hand: state.by_hand.take(),
         };
         named.push(NamedLine { line: lines.add(line)?, name: curve.name.unwrap_or_default() });
     }
@@ -119,7 +121,7 @@ fn taken(file: SessionFile, lines: &mut Lines) -> Result<SessionContent> {
         (kept.color, kept.doubt) = (branch.color, branch.doubt);
         let points = branch.points.into_iter().map(Into::into).collect();
         let (radius, confidence) = (branch.radius, branch.confidence);
-        let line = lines.add(Line { points, radius, confidence, bridged: None })?;
+        let line = lines.add(Line { points, radius, confidence, ..Line::default() })?;
         doubtful_lines.push(NamedLine { line, name: branch.name });
     }
     let text = session.json()?;
@@ -140,6 +142,7 @@ mod tests {
             radius: Some(vec![1.5, 1.25]),
             confidence: Some(vec![1.0, 0.5]),
             bridged,
+            by_hand: None,
         }
     }
 
