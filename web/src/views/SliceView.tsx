@@ -31,6 +31,7 @@ import * as store from '../state/store';
 import { isTracing } from '../state/tool';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
+import { LineGrips } from './LineGrips';
 import { LumenInset } from './LumenInset';
 import { PlaneLines } from './PlaneLines';
 import { ofPlane, type Projection } from './projection';
@@ -85,6 +86,7 @@ export function SliceView({ name }: { readonly name: SliceName }) {
           <HairLines at={pixelOn(plane, point)} />
           {!isTracing() && <PlaneLines name={name} plane={plane} point={point} />}
           {!isTracing() && <SliceTools />}
+          {projection && !isTracing() && <LineGrips projection={projection} />}
           <LumenInset view={name} size={plane.size} />
         </>
       )}
