@@ -10,7 +10,6 @@ import {
   resizedLook,
   type SliceName,
   STANDARD,
-  turnedLook,
   voxelSide,
   zoomedLook,
 } from '../src/core/planes';

@@ -5,14 +5,26 @@ import { normalOf, pixelOn, planeOf, STANDARD, turnedLook } from '../src/core/pl
 import { isTurned, lineOf, lineWithin, SLICE_NAMES, slicesIn, turnedSlices } from '../src/core/slices';
 import { add, cross, dot, scale } from '../src/core/vectors';
 import { begin, document_, redo, undo, undoWords } from '../src/state/history';
-import { beginTurn, chooseSlab, endTurn, putTurnBack, straighten, turnBySteps, turnPlanes } from '../src/state/slices';
+import {
+  beginTurn,
+  chooseSlab,
+  endTurn,
+  putTurnBack,
+  straighten,
+  turnBySteps,
+  turnPlanes,
+} from '../src/state/slices';
 import { slices } from '../src/state/store';
 import { expectNear } from './helpers';
 
 const HAIR: Vector = [12, -7, 30];
 const SIZE = [301, 201] as const;
 /** Planes after turns in all three slices. */
-const OBLIQUE = turnedSlices(turnedSlices(turnedSlices(STANDARD, 'axial', 0.4), 'coronal', -1.1), 'sagittal', 2.2);
+const OBLIQUE = turnedSlices(
+  turnedSlices(turnedSlices(STANDARD, 'axial', 0.4), 'coronal', -1.1),
+  'sagittal',
+  2.2,
+);
 
 afterEach(() => {
   slices.value = STANDARD;

@@ -1,8 +1,8 @@
 //! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
 use lumencut_vessels::measure::section::flags::{
-    AT_LIMIT, BRANCH, BY_HAND, CALCIUM, IRREGULAR, LINE_BY_HAND, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED,
-    RESTLESS_LINE,
+    AT_LIMIT, BRANCH, BY_HAND, CALCIUM, IRREGULAR, LINE_BY_HAND, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE,
+    RECENTERED, RESTLESS_LINE,
 };
 use serde::Serialize;
 

@@ -18,7 +18,5 @@ export const isObject = (value: unknown): value is Record<string, unknown> =>
 /** Whether both are unit vectors, perpendicular to each other. */
 export function areAxes(a: unknown, b: unknown): boolean {
   const isZero = (number: number) => Math.abs(number) < ROUNDING;
-  return (
-    isVector(a) && isVector(b) && isZero(length(a) - 1) && isZero(length(b) - 1) && isZero(dot(a, b))
-  );
+  return isVector(a) && isVector(b) && isZero(length(a) - 1) && isZero(length(b) - 1) && isZero(dot(a, b));
 }

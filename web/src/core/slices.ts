@@ -1,7 +1,7 @@
 /** Turns the planes of the slices about the cross-hair, and finds their lines in each other. */
 import { areAxes, isNumber, isObject, isPositive } from './checks';
 import type { Pair, Plane, SliceAxes, Slices, Vector } from './messages';
-import { normalOf, STANDARD, type SliceName } from './planes';
+import { normalOf, type SliceName, STANDARD } from './planes';
 import { dot, scale, subtract, turned, unit } from './vectors';
 
 export const SLICE_NAMES: readonly SliceName[] = ['axial', 'coronal', 'sagittal'];
@@ -72,7 +72,12 @@ export function lineOf(slices: Slices, here: SliceName, other: SliceName): Pair 
 }
 
 /** The parts before and after `through` (pixels) of a line within a pane, at this distance from its edges; null outside. */
-export function lineWithin(through: Pair, along: Pair, { size }: Pick<Plane, 'size'>, edge: number): Pair | null {
+export function lineWithin(
+  through: Pair,
+  along: Pair,
+  { size }: Pick<Plane, 'size'>,
+  edge: number,
+): Pair | null {
   let [from, to] = [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY];
   for (const axis of [0, 1] as const) {
     const ends = [edge, size[axis] - edge].map((side) => (side - through[axis]) / along[axis]);

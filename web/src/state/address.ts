@@ -1,10 +1,10 @@
 /** The view in the address of the page: camera, window, settings and layout, but no data of the patient. */
 import { batch, effect } from '@preact/signals';
-import type { Camera, Method, SettingRow, Settings, Slices, Vector } from '../core/messages';
 import { areAxes, isNumber, isObject, isPositive, isVector, LARGEST } from '../core/checks';
+import type { Camera, Method, SettingRow, Settings, Slices, Vector } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
-import { slicesIn } from '../core/slices';
 import { STANDARD } from '../core/planes';
+import { slicesIn } from '../core/slices';
 import { destination } from './flight';
 import * as store from './store';
 

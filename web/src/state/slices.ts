@@ -1,7 +1,7 @@
 /** Turns the planes of the slices, and makes them thick. Each change is one undo step. */
 import { batch, signal } from '@preact/signals';
 import type { Slices } from '../core/messages';
-import { STANDARD, type SliceName } from '../core/planes';
+import { type SliceName, STANDARD } from '../core/planes';
 import { isTurned, SLAB_MODES, turnedSlices } from '../core/slices';
 import { slicesChanged } from './history';
 import { hasMillimetres } from './millimetres';
@@ -72,6 +72,9 @@ export function chooseSlab(slab: Slices['slab']): void {
 export function sliceWords(name: SliceName): string {
   const { slab, ...planes } = slices.value;
   const mode = slab && SLAB_MODES.find(([mode]) => mode === slab[1])?.[1];
-  const words = [planes[name] === STANDARD[name] ? '' : 'oblique', slab ? `${mode} ${slab[0]}${hasMillimetres.value ? ' mm' : ''}` : ''];
+  const words = [
+    planes[name] === STANDARD[name] ? '' : 'oblique',
+    slab ? `${mode} ${slab[0]}${hasMillimetres.value ? ' mm' : ''}` : '',
+  ];
   return words.filter(Boolean).join(', ');
 }

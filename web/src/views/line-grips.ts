@@ -33,7 +33,9 @@ export function gripsOf(points: readonly Vector[], projection: Projection): Line
 }
 
 function chosen(part: readonly LinePlace[], step: number, projection: Projection): LinePlace[] {
-  const spread = part.filter(({ at }, n) => n > 0 && Math.floor(at / step) > Math.floor((part[n - 1]?.at ?? 0) / step));
+  const spread = part.filter(
+    ({ at }, n) => n > 0 && Math.floor(at / step) > Math.floor((part[n - 1]?.at ?? 0) / step),
+  );
   const depth = ({ point }: LinePlace) => Math.abs(projection.depth(point));
   const nearest = [...part].sort((a, b) => depth(a) - depth(b))[0];
   return spread.length > 0 || !nearest ? spread : [nearest];

@@ -113,7 +113,11 @@ impl Study {
     }
 
     /// The picture of a geometry with this window, thick with a slab.
-    pub(crate) fn shown(&self, geometry: Geometry, (window, slab): ([f64; 2], Option<Slab>)) -> Result<Picture> {
+    pub(crate) fn shown(
+        &self,
+        geometry: Geometry,
+        (window, slab): ([f64; 2], Option<Slab>),
+    ) -> Result<Picture> {
         let size = geometry.size();
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let (camera, flat) = shown_flat(window)?;

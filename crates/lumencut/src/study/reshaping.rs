@@ -129,7 +129,9 @@ fn following(line: &Line, [before, after]: [&Line; 2]) -> Result<Option<Line>> {
     for is_last in [false, true] {
         let end = line.points[if is_last { line.points.len() - 1 } else { 0 }];
         let met = before.points.iter().position(|point| point.distance(end) <= MEETING);
-        let Some(n) = met.filter(|n| before.points[*n].distance(after.points[*n]) > MOVED_MM) else { continue };
+        let Some(n) = met.filter(|n| before.points[*n].distance(after.points[*n]) > MOVED_MM) else {
+            continue;
+        };
         let at = if is_last { arc_lengths(&moved.points).last().copied().unwrap_or(0.0) } else { 0.0 };
         let to = (end + after.points[n] - before.points[n]).to_array();
         moved = reshaped(&moved, &Reshaping::Bend { at, to })?;

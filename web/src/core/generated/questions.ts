@@ -159,6 +159,10 @@ export type EdgeLetters = {
 
 /** An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm. */
 export type Edit = {
+  readonly "kind": "reshape";
+  readonly id: number;
+  readonly how: Reshaping;
+} | {
   readonly "kind": "begin_vessel";
   readonly clicks: ReadonlyArray<Vector>;
 } | {
@@ -322,7 +326,31 @@ export type LineContent = {
   readonly confidence: ReadonlyArray<number> | null;
   /** Whether each point lies on a bridged stretch without lumen, if known. */
   readonly bridged: ReadonlyArray<boolean> | null;
+  /** Whether the reader moved each point by hand; null if none was moved. */
+  readonly by_hand: ReadonlyArray<boolean> | null;
 };
+
+export type SliceAxes = {
+  readonly right: Vector;
+  readonly down: Vector;
+};
+
+export type Slices = {
+  readonly axial: SliceAxes;
+  readonly coronal: SliceAxes;
+  readonly sagittal: SliceAxes;
+  readonly slab: readonly [number, string] | null;
+};
+
+export type Reshaping = {
+  readonly "kind": "bend";
+  readonly at: number;
+  readonly to: Vector;
+} | {
+  readonly "kind": "smooth";
+  readonly sigma: number;
+};
+
 
 export type LineFacts = {
   readonly line: number;
@@ -513,6 +541,8 @@ export type Plane = {
   readonly down: Vector;
   readonly size: Pair;
   readonly pixel_spacing: number;
+  /** Thickness (mm) and mode of a slab centred on the plane; without one, the picture shows the plane itself. */
+  readonly slab?: readonly [number, string] | null;
 };
 
 export type PointedAt = {
@@ -829,6 +859,8 @@ export type SavedView = {
   readonly cross_hair: Vector | null;
   /** The vessel that is shown straightened, and the place whose cross-section is shown. */
   readonly picked: SavedPlace | null;
+  /** The planes of the slices, if they were turned or are thick; exist since version 2. */
+  readonly slices?: Slices;
 };
 
 /** A scale bar of round length. */
@@ -1214,6 +1246,7 @@ export type Questions = {
     };
     readonly answer: LineContent;
   };
+  reshaped: { readonly message: { readonly line: number; readonly how: Reshaping }; readonly answer: ReadonlyArray<Vector> };
   /** Adds a line, such as a line of a saved session; returns the number that it gets. */
   readonly add_line: {
     readonly message: LineContent;
@@ -1448,6 +1481,7 @@ export const TURNS = {
   path: { when: 'first', words: null },
   whole_vessel: { when: 'first', words: null },
   line: { when: 'first', words: null },
+  reshaped: { when: 'first', words: null },
   add_line: { when: 'first', words: null },
   show: { when: 'first', words: null },
   write_lines: { when: 'first', words: null },

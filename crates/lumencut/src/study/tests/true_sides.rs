@@ -141,7 +141,8 @@ fn a_slab_of_an_oblique_slice_shows_its_mean_and_its_ends() {
         let shown = |slab: Option<(f64, &str)>| {
             let slab = slab.map(|(thickness, mode)| (thickness, mode.to_owned()));
             let [right, down] = [right, down].map(|vector| vector.to_array());
-            let plane = Plane { center: [2.0, -1.0, 3.0], right, down, size: [33, 33], pixel_spacing: 0.5, slab };
+            let plane =
+                Plane { center: [2.0, -1.0, 3.0], right, down, size: [33, 33], pixel_spacing: 0.5, slab };
             study.slice(&plane, WINDOW).expect("a slice").bytes
         };
         let (thin, half) = (shown(None), 5.0 * normal[axis].abs() / WINDOW[1] * 255.0);
