@@ -1,4 +1,5 @@
 /** Grips of the picked vessel's line in a slice or section, and the line while it is dragged. */
+import { useState } from 'preact/hooks';
 import type { DocumentVessel, Pair, Vector } from '../core/messages';
 import { add } from '../core/vectors';
 import { forgetLinePreview, previewLine, reshapeLine } from '../edit/reshaping';
@@ -49,17 +50,25 @@ interface LineGripProps {
 
 function LineGrip({ vessel, place, number, projection }: LineGripProps) {
   const { at, point } = place;
+  const [dragged, setDragged] = useState<Pair | null>(null);
+  const end = () => setDragged(null);
   const move = (to: Vector) => previewLine(vessel.line, { kind: 'bend', at, to: [...to] });
   return (
     <Handle
-      at={projection.pixel(point)}
+      at={dragged ?? projection.pixel(point)}
       words={`Grip ${number} of the line of ${nameOf(vessel)}`}
       color={vessel.color}
       kind="grip line-grip"
-      onDrag={(pixel: Pair) => move(projection.at(pixel, point))}
+      onDrag={(pixel) => {
+        setDragged(pixel);
+        move(projection.at(pixel, point));
+      }}
       onArrow={(by) => move(add(point, projection.step(by)))}
-      onEnd={() => void reshapeLine(vessel.id)}
-      onPutBack={forgetLinePreview}
+      onEnd={() => void reshapeLine(vessel.id).then(end)}
+      onPutBack={() => {
+        forgetLinePreview();
+        end();
+      }}
     />
   );
 }
