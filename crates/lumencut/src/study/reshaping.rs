@@ -68,9 +68,9 @@ fn bent(points: &[DVec3], at: f64, to: DVec3) -> Result<Vec<DVec3>> {
     let reach = LEAST_REACH_MM.max(REACH_PER_PULL * pull.length());
     let weight = |length: f64| {
         let room = if length < at { at } else { whole - at };
-        let share = ((length - at).abs() / reach.min(room)).min(1.0);
-        // At the moved place itself, also if this is an end.
-        if length == at { 1.0 } else { (FRAC_PI_2 * share).cos().powi(2) }
+        // An end has no room beyond itself, and moves if it is the moved place.
+        let share = if length == at { 0.0 } else { (length - at).abs() / reach.min(room) };
+        if share < 1.0 { (FRAC_PI_2 * share).cos().powi(2) } else { 0.0 }
     };
     Ok(points.iter().zip(&lengths).map(|(point, length)| *point + pull * weight(*length)).collect())
 }

@@ -159,10 +159,6 @@ export type EdgeLetters = {
 
 /** An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm. */
 export type Edit = {
-  readonly "kind": "reshape";
-  readonly id: number;
-  readonly how: Reshaping;
-} | {
   readonly "kind": "begin_vessel";
   readonly clicks: ReadonlyArray<Vector>;
 } | {
@@ -202,6 +198,10 @@ export type Edit = {
   readonly "kind": "cut";
   readonly id: number;
   readonly at: number;
+} | {
+  readonly "kind": "reshape";
+  readonly id: number;
+  readonly how: Reshaping;
 } | {
   readonly "kind": "join";
   readonly id: number;
@@ -329,28 +329,6 @@ export type LineContent = {
   /** Whether the reader moved each point by hand; null if none was moved. */
   readonly by_hand: ReadonlyArray<boolean> | null;
 };
-
-export type SliceAxes = {
-  readonly right: Vector;
-  readonly down: Vector;
-};
-
-export type Slices = {
-  readonly axial: SliceAxes;
-  readonly coronal: SliceAxes;
-  readonly sagittal: SliceAxes;
-  readonly slab: readonly [number, string] | null;
-};
-
-export type Reshaping = {
-  readonly "kind": "bend";
-  readonly at: number;
-  readonly to: Vector;
-} | {
-  readonly "kind": "smooth";
-  readonly sigma: number;
-};
-
 
 export type LineFacts = {
   readonly line: number;
@@ -724,6 +702,16 @@ export type ReportView = {
   readonly method: Method;
 };
 
+/** How a reader changes a line. */
+export type Reshaping = {
+  readonly "kind": "bend";
+  readonly at: number;
+  readonly to: Vector;
+} | {
+  readonly "kind": "smooth";
+  readonly sigma: number;
+};
+
 /** What a file can be opened as. */
 export type Role = "volume" | "centerlines" | "other";
 
@@ -905,6 +893,26 @@ export type SettingRow = {
 export type Side = {
   readonly direction: Vector;
   readonly up: Vector;
+};
+
+/** Unit vectors of a slice, to the right and down. */
+export type SliceAxes = {
+  /** To the right in the slice. */
+  readonly right: Vector;
+  /** Down in the slice. */
+  readonly down: Vector;
+};
+
+/** The planes of the slices; all go through the cross-hair. */
+export type Slices = {
+  /** The plane that is axial at first. */
+  readonly axial: SliceAxes;
+  /** The plane that is coronal at first. */
+  readonly coronal: SliceAxes;
+  /** The plane that is sagittal at first. */
+  readonly sagittal: SliceAxes;
+  /** Thickness (mm) and mode of a slab centred on each plane: `max`, `mean` or `min`. */
+  readonly slab: readonly [number, string] | null;
 };
 
 /** A place on a vessel (arc length, mm) and its diameter (mm). */
@@ -1246,7 +1254,14 @@ export type Questions = {
     };
     readonly answer: LineContent;
   };
-  reshaped: { readonly message: { readonly line: number; readonly how: Reshaping }; readonly answer: ReadonlyArray<Vector> };
+  /** The points of a line after it was moved or smoothed by hand. Nothing is kept. */
+  readonly reshaped: {
+    readonly message: {
+      readonly line: number;
+      readonly how: Reshaping;
+    };
+    readonly answer: ReadonlyArray<Vector>;
+  };
   /** Adds a line, such as a line of a saved session; returns the number that it gets. */
   readonly add_line: {
     readonly message: LineContent;
