@@ -6,7 +6,10 @@ import { Viewer } from './page';
 const SIZE = { width: 1280, height: 800 };
 
 async function opened(browser: Browser, options: BrowserContextOptions = {}): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE, ...options });
+  const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu&test', {
+    viewport: SIZE,
+    ...options,
+  });
   await viewer.rest();
   await viewer.field('Layout').selectOption('four');
   await viewer.press('v');

@@ -32,7 +32,7 @@ const end = (viewer: Viewer, other: SlicePane, here: SlicePane): Locator =>
 const line = (viewer: Viewer, other: SlicePane, here: SlicePane): Locator =>
   viewer
     .pane(here)
-    .getByRole('button', { name: `Line of the ${other} plane` })
+    .getByRole('button', { name: new RegExp(`^Line of the ${other}`) })
     .last();
 const title = (viewer: Viewer, name: SlicePane): Locator => viewer.page.locator(`.pane.${name} .pane-title`);
 

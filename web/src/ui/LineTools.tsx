@@ -34,8 +34,11 @@ export function LineTools({ vessel }: LineProps) {
 function Smoothing({ vessel }: LineProps) {
   const [sigma, setSigma] = useState(0);
   return (
-    <label title="Averages the line by a Gaussian with this standard deviation; its ends stay">
-      Smooth{' '}
+    <label
+      class="smoothing"
+      title="Averages the line by a Gaussian with this standard deviation; its ends stay"
+    >
+      <span>Smooth</span>
       <input
         type="range"
         min="0"

@@ -17,7 +17,7 @@ export const PLANE_COLORS: Readonly<Record<SliceName, string>> = {
 };
 
 /** Distances in CSS pixels: of the ends from the edges, of the lines from the cross-hair, of the ends from it at least. */
-const EDGE = 26;
+const EDGE = 44;
 const GAP = 22;
 const LEAST = 48;
 
