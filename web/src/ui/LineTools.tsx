@@ -64,7 +64,5 @@ function Smoothing({ vessel }: LineProps) {
 /** Says that a line was changed by hand. */
 export const LineByHand = ({ vessel }: LineProps) =>
   contents.value.get(vessel.line)?.by_hand ? (
-    <span class="by-hand" title="The reader moved or smoothed this line">
-      line by hand
-    </span>
+    <small title="The reader moved or smoothed this line">line by hand</small>
   ) : null;

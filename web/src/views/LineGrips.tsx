@@ -31,7 +31,11 @@ export function LineGrips({ projection, only }: LineGripsProps) {
     <>
       {changed && (
         <svg class="curves" aria-hidden="true">
-          <path class="live" d={pathData(changed, projection, 'near')} stroke={vessel.color} />
+          <path
+            class="live"
+            d={`${pathData(changed, projection, 'near')}${pathData(changed, projection, 'far')}`}
+            stroke={vessel.color}
+          />
         </svg>
       )}
       {places.map((place, n) => (
