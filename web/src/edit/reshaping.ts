@@ -1,19 +1,29 @@
 /** Moves and smooths the line of a vessel by hand, with a preview. */
 import { Latest } from '../core/latest';
-import type { LineId, Reshaping } from '../core/messages';
+import type { LineId, Vector } from '../core/messages';
 import { recover } from '../state/device';
 import { showReshaped } from '../state/reshaping';
 import { engine } from '../worker/engine';
 import { commit } from './committing';
 
+/** A move of the line from an arc length (mm) to a place, or a smoothing (standard deviation, mm). */
+type Change =
+  | { readonly kind: 'bend'; readonly at: number; readonly to: Vector }
+  | { readonly kind: 'smooth'; readonly sigma: number };
+
+const changed = (line: LineId, how: Change): Promise<readonly Vector[]> =>
+  how.kind === 'bend'
+    ? engine.ask('bent', { line, at: how.at, to: how.to })
+    : engine.ask('smoothed', { line, sigma: how.sigma });
+
 const latest = new Latest();
 /** The change that is previewed; null while there is none. */
-let shown: Reshaping | null = null;
+let shown: Change | null = null;
 
-export function previewLine(line: LineId, how: Reshaping): void {
+export function previewLine(line: LineId, how: Change): void {
   shown = how;
   latest.run(async () => {
-    const points = await engine.ask('reshaped', { line, how }).catch(recover);
+    const points = await changed(line, how).catch(recover);
     // The drag may have ended meanwhile.
     if (shown === how && points) {
       showReshaped(points);
@@ -30,7 +40,7 @@ export function forgetLinePreview(): void {
 export async function reshapeLine(id: number): Promise<void> {
   const how = shown;
   if (how) {
-    await commit({ kind: 'reshape', id, how });
+    await commit({ ...how, id });
     if (shown === how) {
       forgetLinePreview();
     }

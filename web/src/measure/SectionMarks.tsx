@@ -65,6 +65,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
   const section = isShown ? found?.section : null;
   const pulled = pulledContour.value;
   const isDrawn = pulled !== null || isByHand(profile, number);
+  const flags = numbers.flags.filter((flag) => flag !== BY_HAND);
   const contour = pulled?.points ?? section?.contour ?? [];
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
   return (
@@ -100,8 +101,8 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         {outer && <div style={{ color: CONTOUR.outer }}>{withKnownUnits(outer)}</div>}
         {isDrawn && <div style={{ color: CONTOUR.byHand }}>contour by hand</div>}
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
-        {numbers.flags.length > 0 && (
-          <div title={meanings(profile, numbers.flags)}>{doubtWords(numbers).join(', ')}</div>
+        {flags.length > 0 && (
+          <div title={meanings(profile, flags)}>{doubtWords({ ...numbers, flags }).join(', ')}</div>
         )}
       </div>
       <ContourGrips plane={plane} at={numbers.at} isByHand={isByHand(profile, number)} />

@@ -56,7 +56,7 @@ function LineGrip({ vessel, place, number, projection }: LineGripProps) {
   const { at, point } = place;
   const [dragged, setDragged] = useState<Pair | null>(null);
   const end = () => setDragged(null);
-  const move = (to: Vector) => previewLine(vessel.line, { kind: 'bend', at, to: [...to] });
+  const move = (to: Vector) => previewLine(vessel.line, { kind: 'bend', at, to });
   return (
     <Handle
       at={dragged ?? projection.pixel(point)}

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
-use crate::study::reshaping::Reshaping;
 use crate::study::trace_report::Told;
 
 /// An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm.
@@ -60,10 +59,17 @@ pub(crate) enum Edit {
         id: u32,
         at: f64,
     },
-    /// Moves or smooths the line of a vessel by hand. It then has no clicks; the ends of vessels that meet it follow.
-    Reshape {
+    /// Moves the line of a vessel by hand, from an arc length to a place. It then has no clicks; the ends of vessels that meet
+    /// it follow.
+    Bend {
         id: u32,
-        how: Reshaping,
+        at: f64,
+        to: WorldPoint,
+    },
+    /// Smooths the line of a vessel by a Gaussian (standard deviation in mm), in the same way.
+    Smooth {
+        id: u32,
+        sigma: f64,
     },
     /// Joins a second vessel to the first, which keeps name and colour.
     Join {
@@ -144,8 +150,8 @@ impl Edit {
             Self::HideBone { hidden: false } => "show bone",
             Self::Cut { .. } => "cut a vessel",
             Self::Join { .. } => "join two vessels",
-            Self::Reshape { how: Reshaping::Bend { .. }, .. } => "move a line",
-            Self::Reshape { how: Reshaping::Smooth { .. }, .. } => "smooth a line",
+            Self::Bend { .. } => "move a line",
+            Self::Smooth { .. } => "smooth a line",
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),
             Self::AddBranches { .. } => "add all branches from here",
             Self::AddWholeVessel { .. } => "add a whole vessel",

@@ -139,8 +139,13 @@ of_the_study {
     /// The points of a line, with their radii and other data.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
 
-    /// The points of a line after it was moved or smoothed by hand. Nothing is kept.
-    [Turn::First] reshaped { line: usize, how: Reshaping } -> Vec<Vector> = study.reshaped(line, &how)?;
+    /// The points of a line after a move by hand from an arc length (mm) to a place. Nothing is kept.
+    [Turn::First] bent { line: usize, at: f64, to: Vector } -> Vec<Vector> =
+        study.reshaped(line, &Reshaping::Bend { at, to })?;
+
+    /// The points of a line after smoothing by a Gaussian (standard deviation in mm). Nothing is kept.
+    [Turn::First] smoothed { line: usize, sigma: f64 } -> Vec<Vector> =
+        study.reshaped(line, &Reshaping::Smooth { sigma })?;
 
     /// Adds a line, such as a line of a saved session; returns the number that it gets.
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;

@@ -5,7 +5,6 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::centerline_path::smoothed;
-use serde::Deserialize;
 
 use crate::defaults::SMOOTHING;
 use crate::study::document::WorldPoint;
@@ -16,9 +15,7 @@ use crate::study::lines::{Line, wrong};
 use crate::study::open_study::Study;
 
 /// How a reader changes a line.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-#[cfg_attr(test, derive(ts_rs::TS))]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Reshaping {
     /// Moves the point at an arc length (mm) to another place. The line near it follows smoothly.
     Bend { at: f64, to: WorldPoint },

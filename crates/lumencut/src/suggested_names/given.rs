@@ -58,9 +58,11 @@ impl Given {
     pub(super) fn of_line(&self, graph: &Graph, line: usize) -> Vec<NamedStretch> {
         let pieces = (0..graph.pieces.len()).filter(|piece| graph.pieces[*piece].line == line);
         let of_piece = |piece| self.stretches.iter().filter(move |(named, _)| *named == piece);
-        let mut own: Vec<NamedStretch> =
-            pieces.flat_map(of_piece).map(|(_, stretch)| stretch.clone()).collect();
-        own.sort_by(|a, b| a.range[0].total_cmp(&b.range[0]));
+        let mut own: Vec<NamedStretch> = Vec::new();
+        for (_, stretch) in pieces.flat_map(of_piece) {
+            let place = own.partition_point(|before| before.range[0] < stretch.range[0]);
+            own.insert(place, stretch.clone());
+        }
         let mut joined: Vec<NamedStretch> = Vec::new();
         for stretch in own {
             match joined.last_mut() {

@@ -199,9 +199,14 @@ export type Edit = {
   readonly id: number;
   readonly at: number;
 } | {
-  readonly "kind": "reshape";
+  readonly "kind": "bend";
   readonly id: number;
-  readonly how: Reshaping;
+  readonly at: number;
+  readonly to: Vector;
+} | {
+  readonly "kind": "smooth";
+  readonly id: number;
+  readonly sigma: number;
 } | {
   readonly "kind": "join";
   readonly id: number;
@@ -700,16 +705,6 @@ export type ReportView = {
   readonly picture: string;
   /** The method of the view, such as `csr`. */
   readonly method: Method;
-};
-
-/** How a reader changes a line. */
-export type Reshaping = {
-  readonly "kind": "bend";
-  readonly at: number;
-  readonly to: Vector;
-} | {
-  readonly "kind": "smooth";
-  readonly sigma: number;
 };
 
 /** What a file can be opened as. */
@@ -1254,11 +1249,20 @@ export type Questions = {
     };
     readonly answer: LineContent;
   };
-  /** The points of a line after it was moved or smoothed by hand. Nothing is kept. */
-  readonly reshaped: {
+  /** The points of a line after a move by hand from an arc length (mm) to a place. Nothing is kept. */
+  readonly bent: {
     readonly message: {
       readonly line: number;
-      readonly how: Reshaping;
+      readonly at: number;
+      readonly to: Vector;
+    };
+    readonly answer: ReadonlyArray<Vector>;
+  };
+  /** The points of a line after smoothing by a Gaussian (standard deviation in mm). Nothing is kept. */
+  readonly smoothed: {
+    readonly message: {
+      readonly line: number;
+      readonly sigma: number;
     };
     readonly answer: ReadonlyArray<Vector>;
   };
@@ -1496,7 +1500,8 @@ export const TURNS = {
   path: { when: 'first', words: null },
   whole_vessel: { when: 'first', words: null },
   line: { when: 'first', words: null },
-  reshaped: { when: 'first', words: null },
+  bent: { when: 'first', words: null },
+  smoothed: { when: 'first', words: null },
   add_line: { when: 'first', words: null },
   show: { when: 'first', words: null },
   write_lines: { when: 'first', words: null },

@@ -86,7 +86,7 @@ fn impossible_changes_are_refused_with_what_was_found() {
     }
     let mut study = opened("y_junction");
     let id = study.begin_document().vessels[0].id;
-    let outside = Edit::Reshape { id, how: bend(10.0, [1e4, 0.0, 0.0]) };
+    let outside = Edit::Bend { id, at: 10.0, to: [1e4, 0.0, 0.0] };
     assert_eq!(edited(&mut study, outside).expect_err("outside").found, "a point outside the scan");
 }
 
@@ -104,8 +104,8 @@ fn branches_follow_the_line_that_they_leave_and_keep_their_other_end() {
     assert!(!branches.is_empty());
     let to = end + DVec3::new(0.0, 1.5, 0.0);
     let at = arc_lengths(&lines[0].points).last().copied().expect("a length");
-    let how = bend(at, to.to_array());
-    let after = edited(&mut study, Edit::Reshape { id: document.vessels[0].id, how }).expect("an edit");
+    let edit = Edit::Bend { id: document.vessels[0].id, at, to: to.to_array() };
+    let after = edited(&mut study, edit).expect("an edit");
     assert_eq!(after.words, "move a line");
     for (n, vessel) in after.document.vessels.iter().enumerate() {
         let line = study.lines.get(vessel.line).expect("a line");
@@ -123,7 +123,7 @@ fn sections_of_the_moved_stretch_say_so_in_every_number() {
     let before = study.lines.get(document.vessels[0].line).expect("a line");
     let to = (before.points[40] + DVec3::new(0.5, 0.0, 0.0)).to_array();
     let at = arc_lengths(&before.points)[40];
-    let after = edited(&mut study, Edit::Reshape { id: document.vessels[0].id, how: bend(at, to) });
+    let after = edited(&mut study, Edit::Bend { id: document.vessels[0].id, at, to });
     let line = after.expect("an edit").document.vessels[0].line;
     study.show(&[ListedLine { line, ..ListedLine::default() }]).expect("shown");
     let [from, to] = study.lines.get(line).expect("a line").stretches_by_hand()[0];
