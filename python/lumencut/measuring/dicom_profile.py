@@ -31,27 +31,27 @@ class Place:
         The place of the nearest measured section (mm).
     contour : numpy.ndarray, shape (m, 3)
         The wall of the lumen (mm, LPS).
+    flags : Flag
+        The flags of the section, such as a contour by hand.
     equivalent, uncertainty : float
         The diameter of a circle of the same area, and its standard deviation (mm).
     mean, shortest, longest : float
         Diameters (mm).
     area : float
         The area of the lumen (mm²).
-    flags : Flag
-        The flags of the section, such as a contour by hand.
     """
 
     kind: Coded
     marked: float
     arc_length: float
     contour: npt.NDArray[np.float64]
+    flags: Flag
     equivalent: float
     uncertainty: float
     mean: float
     shortest: float
     longest: float
     area: float
-    flags: Flag
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,4 +144,4 @@ def _place(profile: ProfileNumbers, at: float, kind: Coded) -> Place:
     names = ("diameter_equivalent", "uncertainty", "diameter_mean", "diameter_min", "diameter_max", "area")
     values = (float(getattr(profile, name)[number]) for name in names)
     flags = Flag(int(profile.flags[number]))
-    return Place(kind, at, float(profile.arc_length[number]), profile.contour[number], *values, flags)
+    return Place(kind, at, float(profile.arc_length[number]), profile.contour[number], flags, *values)

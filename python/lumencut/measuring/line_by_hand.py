@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lumencut import _lumencut
 from lumencut.measuring.flags import Flag
 from lumencut.measuring.profile import Profile
 from lumencut.scene.vessel import Vessel
