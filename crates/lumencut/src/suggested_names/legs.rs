@@ -17,6 +17,9 @@ const FALLS: f64 = 0.7;
 /// The narrower one is at least this share as wide as the other one.
 const FEMORAL_SHARE: f64 = 0.45;
 const CALF_SHARE: f64 = 0.6;
+/// The superficial femoral artery falls that share of this length: where it is occluded, the deep one and its branches have a
+/// similar fork (mm).
+const TO_KNEE: f64 = 300.0;
 /// The deep femoral artery runs this far behind the superficial one, and outside it, after as many mm (mm).
 const DEEP_BEHIND: f64 = 10.0;
 const DEEP_OUTSIDE: f64 = 4.0;
@@ -24,6 +27,8 @@ const DEEP_OUTSIDE: f64 = 4.0;
 const BEFORE: f64 = 12.0;
 const BEFORE_AFTER: f64 = 60.0;
 const OUTSIDE: f64 = 6.0;
+/// A vessel does not become narrower than this share where a branch leaves it.
+const NARROWS: f64 = 0.7;
 /// Lengths that a name surely holds for (mm): the ends of the thigh's arteries are not seen without bone.
 const COMMON_FEMORAL: f64 = 35.0;
 const SUPERFICIAL_FEMORAL: f64 = 180.0;
@@ -39,9 +44,15 @@ pub(super) fn name_leg(graph: &Graph, external: Way, side: Side, given: &mut Giv
         return;
     };
     name_above(graph, &iliac.ways[..=end], "common femoral artery", side, COMMON_FEMORAL, given);
-    given.name(graph, graph.undivided(&deep), "deep femoral artery", Some(side), DEEP_FEMORAL);
+    given.name(graph, steady(graph, graph.undivided(&deep)), "deep femoral artery", Some(side), DEEP_FEMORAL);
     name_calf(graph, &superficial, side, given);
-    given.name(graph, &superficial.ways, "superficial femoral artery", Some(side), SUPERFICIAL_FEMORAL);
+    given.name(
+        graph,
+        steady(graph, &superficial.ways),
+        "superficial femoral artery",
+        Some(side),
+        SUPERFICIAL_FEMORAL,
+    );
 }
 
 fn name_calf(graph: &Graph, superficial: &Course, side: Side, given: &mut Given) {
@@ -56,8 +67,15 @@ fn name_calf(graph: &Graph, superficial: &Course, side: Side, given: &mut Given)
         (fibular, "fibular artery"),
         (posterior, "posterior tibial artery"),
     ] {
-        given.name(graph, &course.ways, name, Some(side), CALF);
+        given.name(graph, steady(graph, &course.ways), name, Some(side), CALF);
     }
+}
+
+/// Consecutive ways up to the first that is much narrower than the one before: a branch, if the vessel's own end was not found.
+fn steady<'w>(graph: &Graph, ways: &'w [Way]) -> &'w [Way] {
+    let narrows = |pair: &[Way]| graph.radius(pair[1]) < NARROWS * graph.radius(pair[0]);
+    let end = ways.windows(2).position(narrows).map_or(ways.len(), |place| place + 1);
+    &ways[..end]
 }
 
 /// Names the last part (mm) of consecutive ways.
@@ -103,7 +121,8 @@ fn outwards(course: &Course, length: f64, side: Side) -> f64 {
 }
 
 fn femorals(deep: &Course, superficial: &Course, side: Side) -> bool {
-    deep.reach(LONG).y - superficial.reach(LONG).y >= DEEP_BEHIND
+    superficial.reach(TO_KNEE).z <= -FALLS * TO_KNEE
+        && deep.reach(LONG).y - superficial.reach(LONG).y >= DEEP_BEHIND
         && outwards(deep, LONG, side) - outwards(superficial, LONG, side) >= DEEP_OUTSIDE
 }
 

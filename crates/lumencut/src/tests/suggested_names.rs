@@ -84,6 +84,10 @@ const LEGS: [&str; 14] = [
     "Right superficial femoral artery",
 ];
 
+/// Parts of the names of vessels from the groin downwards.
+const OF_LEGS: [&str; 8] =
+    ["femoral", "circumflex", "perforating", "geniculate", "sural", "tibi", "peroneal", "epigastric"];
+
 const NECK: [&str; 12] = [
     "Aorta",
     "Brachiocephalic trunk",
@@ -108,6 +112,31 @@ fn no_vessel_of_a_phantom_gets_the_name_of_another() {
         assert_eq!(checked(&runoff(seed, 0.02).unwrap()), expected(&both), "seed {seed}");
         assert_eq!(checked(&cervical(seed, 0.02).unwrap()), expected(&NECK), "seed {seed}");
     }
+}
+
+/// Vessels that a search misses must not give their names to others.
+#[test]
+fn legs_without_some_of_their_vessels_have_no_wrong_names() {
+    let phantom = runoff(0, 0.02).unwrap();
+    let (mut state, mut named) = (1_u64, 0);
+    for _ in 0..60 {
+        let mut is_kept = |(_, name): &(_, &String)| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            !OF_LEGS.iter().any(|part| name.contains(part)) || (state >> 33) % 10 >= 2
+        };
+        let all = phantom.tree.vessels().iter().zip(&phantom.vessel_names);
+        let (kept, names): (Vec<_>, Vec<_>) =
+            all.filter(&mut is_kept).map(|(vessel, name)| (vessel.clone(), name)).unzip();
+        let tree = VesselTree::new(kept).unwrap();
+        for ((vessel, found), truth) in tree.vessels().iter().zip(suggested(&tree)).zip(names) {
+            for stretch in found.stretches.iter().filter(|stretch| LEGS.contains(&&*stretch.name)) {
+                let truth = truth_at(truth, stretch, vessel.arc_length().last().unwrap());
+                assert_eq!(meant(&stretch.name), meant(&truth), "{truth}");
+                named += 1;
+            }
+        }
+    }
+    assert!(named > 100, "{named} names");
 }
 
 /// The tree with each point moved.
