@@ -79,6 +79,7 @@ impl Line {
             radius: self.known_radius(),
             name: (!name.is_empty()).then(|| name.to_owned()),
             confidence: self.confidence.clone(),
+            by_hand: self.by_hand.clone(),
             ..centerlines::Line::default()
         }
     }

@@ -36,8 +36,8 @@ pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>>
         state.confidence.clone_from(&line.confidence);
         state.bridged.clone_from(&line.bridged);
         state.by_hand.clone_from(&line.by_hand);
-        // The session stores confidence with the vessel, so the line omits it.
-        file.lines.push(centerlines::Line { confidence: None, ..line.in_file(&named.name) });
+        // The session stores both with the vessel, so the line omits them.
+        file.lines.push(centerlines::Line { confidence: None, by_hand: None, ..line.in_file(&named.name) });
     }
     for (named, branch) in doubtful_lines.iter().zip(&mut file.session.doubtful) {
         let line = lines.get(named.line)?.in_file(&named.name);
