@@ -176,6 +176,9 @@ def test_checks(report: str) -> list[Check]:
             environment,
             count=count_python,
             report=report,
+            lane=PYTHON,
+            # Some tests open the page. Rust's tests leave one core idle while they compile.
+            needs=("size of the page", "stubs"),
         ),
         Check(
             "tests of the page",

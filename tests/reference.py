@@ -137,6 +137,7 @@ class Candidates:
     z_error: np.ndarray
     r_error: np.ndarray
     s_error: np.ndarray
+    kind: np.ndarray  # 0 stripe, 1 wedge, 2 half-plane, 3 full plane
 
 
 def candidates(pieces, q):
@@ -154,12 +155,15 @@ def candidates(pieces, q):
     values = [z0 + t * dz for z0, dz in zip(begin, change, strict=True)]
     errors = [ROUNDING * (1 + d / length) * np.abs(dz) / length for dz in change]
     slope = np.broadcast_to((change[0] / length**2)[:, None] * pieces.edge, (*t.shape, 2))
-    stripes = (*values, d, np.minimum(along, length - along), slope, *errors)
+    inside = np.minimum(along, length - along)
+    stripes = (*values, d, inside, slope, *errors, np.zeros(inside.shape, int))
     offset = q[:, None] - pieces.point
     inside = np.minimum(beyond(offset, pieces.before), beyond(-offset, pieces.after))
     values = [np.broadcast_to(column, inside.shape) for column in pieces.at_point.T]
     nothing = np.zeros(inside.shape)
-    fans = (*values, np.linalg.norm(offset, axis=-1), inside, np.zeros((*inside.shape, 2)), *3 * [nothing])
+    missing = sum((edge == 0).all(axis=1).astype(int) for edge in (pieces.before, pieces.after))
+    d, flat, kind = np.linalg.norm(offset, axis=-1), np.zeros((*inside.shape, 2)), 1 + missing
+    fans = (*values, d, inside, flat, *3 * [nothing], np.broadcast_to(kind, inside.shape))
     return Candidates(*(np.concatenate(pair, axis=1) for pair in zip(stripes, fans, strict=True)))
 
 

@@ -35,6 +35,9 @@ class Surface:
     )  # how far beyond the lumen of the winner at level 0 the pixel lies (mm), negative within
     slope: np.ndarray  # change of depth to the right and upwards, (H, W, 2)
     gap: np.ndarray  # arc length between the two places that are blended (mm)
+    cost: np.ndarray  # mm, blended
+    level: np.ndarray
+    kind: np.ndarray  # of the level with the larger weight
 
 
 @dataclass
@@ -52,12 +55,18 @@ class Winners:
     z_range: np.ndarray
     other_vessel: np.ndarray
     other_place: np.ndarray
+    cost: np.ndarray
+    kind: np.ndarray
+
+
+def cost_of(found, settings):
+    """Return the cost of Equation 2 (mm)."""
+    return found.z + settings.cost_weight * np.maximum(found.d - found.r, 0)
 
 
 def key(found, settings, slack=0.0):
     """Return the order of pieces: with `lumen_first` lumen, wall, surroundings; otherwise only the cost."""
-    beyond = found.d - found.r
-    cost = found.z + settings.cost_weight * np.maximum(beyond, 0)
+    beyond, cost = found.d - found.r, cost_of(found, settings)
     if not settings.lumen_first:
         return cost
     wall = np.where(beyond <= settings.lumen_margin + slack, found.z - LIFT, cost)
@@ -68,7 +77,7 @@ def winners(vessels, q, settings):
     """The piece with the smallest key at each pixel; on a tie the smaller vessel id."""
     count, pixel = len(q), np.arange(len(q))
     best, sure, kept = np.full(count, np.inf), np.full(count, np.inf), {"vessel": np.zeros(count, int)}
-    names = ("z", "r", "s", "d", "z_error", "s_error", "slope")
+    names = ("z", "r", "s", "d", "z_error", "s_error", "slope", "kind")
     for vessel, pieces in enumerate(vessels):
         found = candidates(pieces, q)
         cost = np.where(found.inside >= 0, key(found, settings), np.inf)
@@ -94,25 +103,27 @@ def winners(vessels, q, settings):
     return Winners(
         kept["z"], kept["z_error"], kept["vessel"], kept["r"], kept["d"], kept["s"], kept["s_error"],
         kept["slope"], high - low, others, elsewhere,
+        kept["z"] + settings.cost_weight * np.maximum(kept["d"] - kept["r"], 0), kept["kind"],
     )  # fmt: skip
 
 
 def own(vessels, q, settings, decided):
     """Return at each pixel the piece of the winning vessel whose arc length is nearest to the winner's."""
     shape = len(q)
-    z, slack, s, z_range = (np.zeros(shape) for _ in range(4))
+    z, slack, s, z_range, costs, kind = (np.zeros(shape) for _ in range(6))
     slope = np.zeros((shape, 2))
     for vessel in np.unique(decided.vessel):
         here = np.flatnonzero(decided.vessel == vessel)
         found = candidates(vessels[vessel], q[here])
         apart = np.abs(found.s - decided.s[here, None])
         covered = np.where(found.inside >= 0, apart, np.inf)
-        cost = found.z + settings.cost_weight * np.maximum(found.d - found.r, 0)
+        cost = cost_of(found, settings)
         nearest = covered <= covered.min(axis=1, keepdims=True)
         mine = np.arange(len(here)), np.where(nearest, cost, np.inf).argmin(axis=1)
         z[here], slack[here], s[here], slope[here] = (
             found.z[mine], found.z_error[mine], found.s[mine], found.slope[mine],
         )  # fmt: skip
+        costs[here], kind[here] = cost[mine], found.kind[mine]
         error = TIE / 10 + found.s_error + decided.s_error[here, None]
         certain = np.where(found.inside >= BORDER, apart + error, np.inf).min(axis=1, keepdims=True)
         rival = (found.inside >= -BORDER) & (apart - error <= certain)
@@ -120,8 +131,9 @@ def own(vessels, q, settings, decided):
         z_range[here] = high.max(axis=1) - low.min(axis=1)
     nothing = np.zeros(shape, bool)
     return Winners(
-        z, slack, decided.vessel, decided.r, decided.d, s, decided.s_error, slope, z_range, nothing, nothing
-    )
+        z, slack, decided.vessel, decided.r, decided.d, s, decided.s_error, slope, z_range, nothing, nothing,
+        costs, kind,
+    )  # fmt: skip
 
 
 def pieces_at(level, camera, settings):
@@ -187,6 +199,7 @@ def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
     flat = (
         *(mixed("z"), vessel, distance, mixed("slack"), unsure, other),
         *(decided.r, decided.d - decided.r, mixed("slope"), gap),
+        *(mixed("cost"), fine + weight, np.where(weight > 0.5, second["kind"], first["kind"])),
     )
     size = camera.size[::-1]
     return Surface(*(image.reshape(*size, *image.shape[1:]) for image in flat))

@@ -17,7 +17,18 @@ import reference
 import reference_images
 import reference_surface
 from conftest import each_value, needs_shared_data, odd_lines
-from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, phantom, read_centerlines
+from lumencut import (
+    Camera,
+    Renderer,
+    Settings,
+    SettingsError,
+    Vessel,
+    VesselTree,
+    Volume,
+    VolumeError,
+    phantom,
+    read_centerlines,
+)
 from lumencut.scene.checked_settings import checked
 from scenes import lattice, nearly_along_y, of_few_points, wandering
 
@@ -115,6 +126,62 @@ def test_segments_around_the_collinear_bound(seed, levels, rule):
 def test_vessels_of_few_points(seed, rule):
     camera = Camera((0, 0, 0), (0.3, 0.5, -0.8), (0.1, 0.2, 1), (61, 35), 0.41)
     assert_same(of_few_points(seed), camera, RULES[rule])
+
+
+@each_value
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("direction", DIRECTIONS)
+@pytest.mark.parametrize("name", ["wandering", "collinear_run", "y_junction"])
+def test_cost_level_and_kind_of_piece(name, direction, rule):
+    tree = wandering(3) if name == "wandering" else getattr(phantom, name)().tree
+    camera, images = fitted(tree, direction, FEW), ("cost", "level", "piece")
+    frame = Renderer(None, tree).cut_surface(camera, RULES[rule], images=images)
+    expected = reference_surface.cut_surface(tree, camera, RULES[rule], TOLERANCE)
+    sure = ~(expected.unsure_depth | expected.unsure_vessel)
+    # Near distance 0 the square root amplifies rounding.
+    np.testing.assert_allclose(frame.level[sure], expected.level[sure], rtol=0, atol=0.01)
+    # The cost changes by ten times the distance; several places may be equally near in arc length.
+    different = np.abs(frame.cost - expected.cost) > 10 * TOLERANCE + expected.slack
+    assert different[sure].mean() < 0.003, np.abs(frame.cost - expected.cost)[sure].max()
+    assert (frame.piece != expected.kind)[sure].mean() < 0.01
+    assert frame.cost.dtype == frame.level.dtype == np.float32
+    assert frame.piece.dtype == np.int32
+
+
+def test_cost_level_and_kind_of_a_straight_vessel():
+    # 40 mm along x at depth 5 mm, radius 2 mm; level N at 8 mm from the wall.
+    tree = VesselTree([Vessel([(x, 5.0, 0.0) for x in range(-20, 21)], 2.0)])
+    camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (61, 21), 1.0)
+    rule = Settings.paper(levels=6, level_distance=8.0)
+    frame = Renderer(None, tree).cut_surface(camera, rule, images=["cost", "level", "piece", "depth"])
+    x, height = np.arange(61) - 30.0, 10.0 - np.arange(21)[:, None]
+    distance = np.hypot(np.maximum(np.abs(x) - 20, 0), height)
+    np.testing.assert_allclose(frame.cost, 5 + 10 * np.maximum(distance - 2, 0), rtol=0, atol=1e-4)
+    np.testing.assert_allclose(frame.level, np.minimum(np.sqrt(6 * distance / 8), 6), rtol=0, atol=1e-3)
+    beyond = np.broadcast_to(np.abs(x) > 20, (21, 61))
+    assert (frame.piece[beyond] == 2).all()
+    assert (frame.piece[np.broadcast_to(np.abs(x) < 20, (21, 61))] < 2).all()
+    along = Renderer(None, tree).cut_surface(
+        Camera((0, 5, 0), (1, 0, 0), (0, 0, 1), (9, 9), 1.0), rule, images=["piece", "cost"]
+    )
+    # The vessel projects to a point: one full plane at its nearest point.
+    assert (along.piece == 3).all()
+    assert along.cost[4, 4] == -20
+
+
+def test_a_frame_has_cost_level_and_piece_only_if_asked():
+    tree = wandering(0)
+    renderer, camera = Renderer(None, tree), fitted(tree, "front", FEW)
+    frame = renderer.cut_surface(camera)
+    with pytest.raises(VolumeError, match=r"cost of the frame: found a frame that was not asked for it"):
+        _ = frame.cost
+    both = renderer.cut_surface(camera, images=["cost", "depth"])
+    assert both.has("cost")
+    assert both.has("depth")
+    assert not both.has("level")
+    np.testing.assert_array_equal(both.depth, frame.depth)
+    with pytest.raises(SettingsError, match="'cost', 'level', 'piece'"):
+        renderer.cut_surface(camera, images=["picture"])
 
 
 @each_value
@@ -267,7 +334,7 @@ def test_levels_of_detail():
 def test_silhouettes_of_leaps_and_how_far_apart_blends_are(seed, direction, spacing):
     tree = wandering(seed)
     camera = replace(fitted(tree, direction, (61, 47)), pixel_spacing=spacing)
-    found = Renderer(None, tree)._core.details(camera, checked(Settings()))
+    found = Renderer(None, tree)._core.details(camera, checked(Settings(silhouette_reach=None)))
     surface = reference_surface.cut_surface(tree, camera, Settings(), TOLERANCE)
     strength, doubt = reference_images.silhouettes(surface, camera, 0.01)
     assert doubt.mean() < 0.1

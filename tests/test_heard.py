@@ -15,40 +15,53 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no timers of th
 
 TUBE = phantom.straight_tube()
 VESSEL = TUBE.tree[0]
-FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(2048, 2048))
 
 
-def curved(mode, pixel_spacing=0.01):
+def curved(mode, pixel_spacing):
     """Lay out a large CPR in the extension module."""
     return lumencut.cpr(TUBE.volume, VESSEL, mode, width=40, pixel_spacing=pixel_spacing)._core
+
+
+def front(side):
+    return lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(side, side))
 
 
 def depth(side):
     return np.zeros((side, side), np.float32)
 
 
-#: For each name, a preparation and the call of the extension module that uses it.
+#: For each name, a preparation and the call of the extension module that uses it; both take longer with the
+#: number of steps along a side.
 CALLS = {
-    "phantom": (lambda: None, lambda _: phantom.aorta(scale=0.5)),
-    "position": (lambda: curved("stretched", 0.02), lambda core: core.position()),
-    "folded": (lambda: curved("straightened"), lambda core: core.folded()),
+    "phantom": (lambda n: 0.5 * n, lambda scale: phantom.aorta(scale=scale)),
+    "position": (lambda n: curved("stretched", 0.02 / n), lambda core: core.position()),
+    "folded": (lambda n: curved("straightened", 0.01 / n), lambda core: core.folded()),
     "spiral": (
-        lambda: lumencut.spiral(TUBE.volume, VESSEL, pixel_spacing=0.05)._core,
+        lambda n: lumencut.spiral(TUBE.volume, VESSEL, pixel_spacing=0.05 / n)._core,
         lambda c: c.position(),
     ),
-    "map": (lambda: lumencut.lumen_map(TUBE.volume, VESSEL, pixel_spacing=0.02)._core, lambda c: c.shades()),
+    "map": (
+        lambda n: lumencut.lumen_map(TUBE.volume, VESSEL, pixel_spacing=0.02 / n)._core,
+        lambda c: c.shades(),
+    ),
     "untangled": (
-        lambda: lumencut.untangled(TUBE.volume, TUBE.tree, pixel_spacing=0.02)._core,
+        lambda n: lumencut.untangled(TUBE.volume, TUBE.tree, pixel_spacing=0.02 / n)._core,
         lambda core: core.vessel(),
     ),
-    "uncurl": (lambda: lumencut.uncurl(TUBE.volume, VESSEL, FRONT, 0.5)._core, lambda core: core.position()),
+    "uncurl": (
+        lambda n: lumencut.uncurl(TUBE.volume, VESSEL, front(2048 * n), 0.5)._core,
+        lambda core: core.position(),
+    ),
     "picture": (
-        lambda: (depth(4096), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
+        lambda n: (depth(4096 * n), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
         lambda given: lumencut._lumencut.picture(*given),
     ),
-    "positions": (lambda: depth(2048), lambda given: lumencut._lumencut.positions(FRONT, given)),
+    "positions": (
+        lambda n: (front(2048 * n), depth(2048 * n)),
+        lambda given: lumencut._lumencut.positions(*given),
+    ),
     "sample": (
-        lambda: np.random.default_rng(1).uniform(-10, 10, (2_000_000, 3)),
+        lambda n: np.random.default_rng(1).uniform(-10, 10, (2_000_000 * n * n, 3)),
         lambda points: lumencut._lumencut.sample(TUBE.volume, points),
     ),
 }
@@ -58,10 +71,12 @@ CALLS = {
 def test_a_signal_is_heard_in_the_midst_of_a_call(name):
     # Signals that arrive before the first check are handled once after the call, and perhaps once before.
     prepare, call = CALLS[name]
-    given, heard = prepare(), []
+    heard = []
     before = signal.signal(signal.SIGALRM, lambda number, frame: heard.append(number))
     try:
-        for _ in range(20):
+        for n in (1, 1, 2, 3):
+            # A fast machine needs a longer call.
+            given = prepare(n)
             heard.clear()
             signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
             call(given)

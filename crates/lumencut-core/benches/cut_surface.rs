@@ -31,7 +31,10 @@ fn buffers() -> Buffers {
 
 impl Buffers {
     fn written(&mut self) -> (&[f32], DepthImages<'_>) {
-        (&self.distance, DepthImages { depth: &mut self.depth, vessel: &mut self.vessel, sheet: &mut [] })
+        (
+            &self.distance,
+            DepthImages { depth: &mut self.depth, vessel: &mut self.vessel, sheet: &mut [], blend: &mut [] },
+        )
     }
 }
 

@@ -1,6 +1,7 @@
 //! The result of a rendering: one image per quantity, row 0 on top.
 
 use crate::geometry::Geometry;
+use crate::stages::depth::Blend;
 use crate::stages::focus::Shares;
 use crate::stages::{Image, ImageSet};
 
@@ -22,6 +23,8 @@ pub struct Frame {
     pub image: Vec<[u8; 4]>,
     /// Id of the vessel that each pixel belongs to.
     pub vessel: Vec<i32>,
+    /// Cost, level and kind of piece of the depth before its filter; empty in views that show the volume.
+    pub blend: Vec<Blend>,
     /// Bits that mark depth jumps between neighbouring pixels ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
     /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if both are fully shown.
@@ -45,6 +48,7 @@ impl Frame {
             geometry,
             image: Vec::new(),
             vessel: Vec::new(),
+            blend: Vec::new(),
             leap: Vec::new(),
             focus: Vec::new(),
             distance: Vec::new(),
@@ -81,6 +85,7 @@ impl Frame {
             (Image::Picture, !self.image.is_empty()),
             (Image::Depth, !self.depth().is_empty()),
             (Image::Vessel, !self.vessel.is_empty()),
+            (Image::Blend, !self.blend.is_empty()),
             (Image::Leap, !self.leap.is_empty()),
             (Image::Focus, !self.focus.is_empty()),
             (Image::Distance, !self.distance.is_empty()),
@@ -108,6 +113,7 @@ impl Frame {
         }
         keep(&mut self.image, wanted.has(Image::Picture));
         keep(&mut self.vessel, wanted.has(Image::Vessel));
+        keep(&mut self.blend, wanted.has(Image::Blend));
         keep(&mut self.leap, wanted.has(Image::Leap));
         keep(&mut self.focus, wanted.has(Image::Focus));
         keep(&mut self.distance, wanted.has(Image::Distance));

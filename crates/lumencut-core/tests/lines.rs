@@ -5,7 +5,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::math::leaps::{DOWNWARDS, LEAPS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};
 use lumencut_core::scene::LeveledTree;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{Focus, Settings};
 use lumencut_core::stages::silhouette::{SilhouetteParameters, silhouette_of_leaps};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_scenes::random_tree::random_tree;
@@ -20,7 +20,8 @@ const ROUNDING: f32 = 1e-4;
 
 fn details(scene: &VesselTree, camera: &Camera, settings: &Settings) -> SurfaceDetails {
     let scene = LeveledTree::new(scene.clone());
-    CpuRenderer::default().details(&scene, &Request::new(camera, settings)).unwrap()
+    let everywhere = Settings { silhouette_reach: None, ..settings.clone() };
+    CpuRenderer::default().details(&scene, &Request::new(camera, &everywhere)).unwrap()
 }
 
 fn tube(height: f64, depth: f64, radius: f64) -> Vessel {
@@ -191,4 +192,29 @@ fn a_line_that_would_lie_where_nothing_is_shown_lies_on_the_other_side_unless_th
     assert_eq!(beside_one_leap(lumen, [5.0, 5.0, 5.0, nan, nan, nan]), [0.0; 6]);
     assert_eq!(beside_one_leap(none, [nan, nan, nan, 5.0, 5.0, 5.0]), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
     assert_eq!(beside_one_leap(none, [nan; 6]), [0.0; 6]);
+}
+
+#[test]
+fn lines_are_measured_as_a_picture_draws_them() {
+    // The border between the zones is 16 mm from both walls; the line lies in the row of pixels behind it.
+    let scene = LeveledTree::new(tree(vec![tube(17.0, 0.0, 1.0), tube(-17.0, 30.0, 1.0)]));
+    let camera = front(SIZE, 1.0);
+    let strongest = |reach: Option<f64>, focus: Option<Focus>| {
+        let settings = Settings {
+            lumen_margin: 0.0,
+            cost_weight: 1e4,
+            silhouette_reach: reach,
+            focus,
+            ..Settings::default()
+        };
+        let request = Request::new(&camera, &settings);
+        let strength = CpuRenderer::default().details(&scene, &request).unwrap().strength;
+        strength.into_iter().fold(0.0, f32::max)
+    };
+    assert_eq!(strongest(None, None), 1.0);
+    assert_eq!(strongest(Some(7.0), None), 0.0);
+    // The wall of the far tube is 15.5 mm away there, so a reach of 10 mm leaves 1 - S(0.55) of the line.
+    let share = 1.0 - 0.55f32.powi(2) * (3.0 - 1.1);
+    assert!((strongest(Some(10.0), None) - share).abs() < 1e-3);
+    assert_eq!(strongest(None, Some(Focus { margin: 2.0, fade: 6.0 })), 0.0);
 }

@@ -38,8 +38,8 @@ pub(crate) struct CutSurfaceStages {
     /// Compiled when needed.
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
-    /// A stage for each combination of level choice, *lumen first* and sheet; compiled when needed.
-    depth: [[[Option<Stage>; 2]; 2]; 2],
+    /// A stage for each combination of level choice, *lumen first* and details; compiled when needed.
+    depth: [[[Option<Stage>; 3]; 2]; 2],
     parameters: Buffer,
     /// The layout of the levels that was written last.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
@@ -123,7 +123,7 @@ impl CutSurfaceStages {
         recording.run(stage, &all.map(Buffer::as_entire_binding), groups(images.size, self.group));
     }
 
-    /// Writes depth, vessel and sheet of every pixel.
+    /// Writes depth, vessel and details of every pixel.
     pub(crate) fn depth(
         &mut self,
         recording: &mut Recording,
@@ -133,45 +133,68 @@ impl CutSurfaceStages {
         images: &Images,
         depth: &Buffer,
     ) {
-        let Images { size, distance, vessel, sheet, .. } = images;
+        let Images { size, distance, vessel, .. } = images;
+        let details = match rules.details {
+            Details::None | Details::Sheet => &images.sheet,
+            Details::Blend => &images.gathered,
+        };
         let (slots, boxes, of_slot) = (&levels.slots, &levels.boxes, &levels.vessel_of_slot);
         let last = if rules.is_own { &levels.spans } else { distance };
         let parameters = self.parameters.clone();
-        let all = [view, &parameters, slots, boxes, of_slot, depth, vessel, sheet, &levels.projected, last];
+        let all = [view, &parameters, slots, boxes, of_slot, depth, vessel, details, &levels.projected, last];
         let groups = groups(*size, self.group);
         let stage = self.depth_stage(recording.device, rules);
         recording.run(stage, &all.map(Buffer::as_entire_binding), groups);
     }
 
     fn depth_stage(&mut self, device: &Device, rules: DepthRules) -> &Stage {
-        let DepthRules { is_own, lumen_first, has_sheet } = rules;
-        let [own, lumen, sheet] = [is_own, lumen_first, has_sheet].map(usize::from);
-        self.depth[own][lumen][sheet].get_or_insert_with(|| {
+        let DepthRules { is_own, lumen_first, details } = rules;
+        let [own, lumen] = [is_own, lumen_first].map(usize::from);
+        self.depth[own][lumen][details as usize].get_or_insert_with(|| {
             let [across, rows] = tile_of(device).map(|n| n as f64);
-            let [lumen_first, has_sheet] = [lumen_first, has_sheet].map(|is| f64::from(u8::from(is)));
-            let constants =
-                [("ACROSS", across), ("ROWS", rows), ("LUMEN_FIRST", lumen_first), ("HAS_SHEET", has_sheet)];
+            let switches = [lumen_first, details == Details::Sheet, details == Details::Blend];
+            let [lumen_first, has_sheet, has_blend] = switches.map(|is| f64::from(u8::from(is)));
+            let constants = [
+                ("ACROSS", across),
+                ("ROWS", rows),
+                ("LUMEN_FIRST", lumen_first),
+                ("HAS_SHEET", has_sheet),
+                ("HAS_BLEND", has_blend),
+            ];
             let entry = if is_own { "depth" } else { "nearest" };
             Stage::entry(device, "stages/depth", entry, &constants)
         })
     }
 }
 
+/// The image of four numbers per pixel that one run of the stage `depth` writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Details {
+    None,
+    Sheet,
+    Blend,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct DepthRules {
     pub is_own: bool,
     pub lumen_first: bool,
-    pub has_sheet: bool,
+    pub details: Details,
 }
 
 impl DepthRules {
-    pub(crate) fn of(request: &Request) -> Self {
+    /// The runs of the stage: two if both the sheet and the blend are needed.
+    pub(crate) fn of(request: &Request) -> Vec<Self> {
         let &Request { settings, images, .. } = request;
-        Self {
-            is_own: settings.level_choice == LevelChoice::Own,
-            lumen_first: settings.lumen_first,
-            has_sheet: Table::has_sheet(settings, images),
-        }
+        let wanted = match (Table::has_sheet(settings, images), Table::has_blend(images)) {
+            (false, false) => &[Details::None][..],
+            (true, false) => &[Details::Sheet],
+            (false, true) => &[Details::Blend],
+            (true, true) => &[Details::Sheet, Details::Blend],
+        };
+        let is_own = settings.level_choice == LevelChoice::Own;
+        let run = |details: &Details| Self { is_own, lumen_first: settings.lumen_first, details: *details };
+        wanted.iter().map(run).collect()
     }
 }
 

@@ -69,12 +69,13 @@ impl Images {
             Image::UnfilteredDepth | Image::Depth => &self.depth,
             Image::Vessel => &self.vessel,
             Image::Sheet => &self.sheet,
+            // No view has both, see `Stage::has_blend`.
+            Image::Blend | Image::Gathered => &self.gathered,
             Image::Leap => &self.leap,
             Image::Focus => &self.focus,
             Image::Value => &self.value,
             Image::Strength => &self.strength,
             Image::Start => &self.start,
-            Image::Gathered => &self.gathered,
             Image::Context => &self.context,
             Image::Picture => &self.picture,
         }

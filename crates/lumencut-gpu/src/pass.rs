@@ -128,8 +128,10 @@ impl<'a> Pass<'a> {
     fn depth(&mut self) {
         let Some(levels) = self.levels else { return };
         let depth = self.buffer(Image::UnfilteredDepth);
-        let (rules, Stages { view, cut_surface, .. }) = (DepthRules::of(self.request), &mut *self.stages);
-        cut_surface.depth(&mut self.recording, view, levels, rules, self.images, depth);
+        let Stages { view, cut_surface, .. } = &mut *self.stages;
+        for rules in DepthRules::of(self.request) {
+            cut_surface.depth(&mut self.recording, view, levels, rules, self.images, depth);
+        }
     }
 
     fn leap(&mut self) {
@@ -227,6 +229,9 @@ impl<'a> Pass<'a> {
         if !self.made.has(Image::Gathered) {
             self.made = self.made.without(Image::Context);
         }
+        if !Stage::has_blend(self.request.images) {
+            self.made = self.made.without(Image::Blend);
+        }
         let asked = |image: &Image| self.request.images.has(*image) && self.made.has(*image);
         let wanted: Vec<_> = Image::ALL.into_iter().filter(asked).collect();
         let results = self.finish(&wanted).await?;
@@ -236,6 +241,7 @@ impl<'a> Pass<'a> {
                 (Image::Distance, _) => frame.distance = results.numbers(n),
                 (Image::Depth, Geometry::Orthographic { depth, .. }) => *depth = results.numbers(n),
                 (Image::Vessel, _) => frame.vessel = results.numbers(n),
+                (Image::Blend, _) => frame.blend = results.numbers(n),
                 (Image::Leap, _) => frame.leap = results.numbers(n),
                 (Image::Focus, _) => frame.focus = results.numbers(n),
                 (Image::Value, _) => frame.value = with_holes(results.numbers(n)),
@@ -267,7 +273,7 @@ impl<'a> Pass<'a> {
 
 fn bytes_of(image: Image) -> usize {
     match image {
-        Image::Gathered | Image::Sheet => 16,
+        Image::Gathered | Image::Sheet | Image::Blend => 16,
         Image::Focus => 8,
         _ => 4,
     }

@@ -299,6 +299,13 @@ fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
             all.set_item(name, PyArray1::from_vec(py, numbers).reshape(shape)?)?;
         }
     }
+    if !frame.blend.is_empty() {
+        let number = |n: usize| frame.blend.iter().map(|blend| blend[n]).collect();
+        all.set_item("cost", PyArray1::from_vec(py, number(0)).reshape(shape)?)?;
+        all.set_item("level", PyArray1::from_vec(py, number(1)).reshape(shape)?)?;
+        let kinds = frame.blend.iter().map(|blend| blend[2] as i32).collect();
+        all.set_item("piece", PyArray1::from_vec(py, kinds).reshape(shape)?)?;
+    }
     if !frame.vessel.is_empty() {
         all.set_item("vessel", PyArray1::from_vec(py, frame.vessel).reshape(shape)?)?;
     }

@@ -54,6 +54,12 @@ pub const MOST_TOGETHER: usize = 16;
 /// Depths of frames (mm), and vessel ids: far below a voxel; on borders between zones, two pieces may be equally near.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);
 
+/// Costs (mm): as [`DEPTH`], plus ten times the rounding of a distance of up to 100 mm.
+pub const COST: Tolerance = Tolerance::new(3e-3, 1e-3);
+
+/// Levels: near distance 0 the square root amplifies rounding.
+pub const LEVEL: Tolerance = Tolerance::new(1e-2, 1e-3);
+
 /// Pixels around joints where pieces tie: a 5 mm lumen at the only joint of small pictures covers 1.6 %; the filter adds some.
 pub const TIED: Tolerance = Tolerance::new(0.0, 0.02);
 

@@ -16,6 +16,7 @@ from lumencut.cli.compare_scans import compare_scans
 from lumencut.cli.demo import demo
 from lumencut.cli.doctor import doctor
 from lumencut.cli.evaluate import evaluate
+from lumencut.cli.figures import figures
 from lumencut.cli.first_words import first_words
 from lumencut.cli.info import info
 from lumencut.cli.measure import measure
@@ -75,6 +76,7 @@ ALL_COMMANDS = (
     compare_methods,
     *COMMANDS,
     evaluate,
+    figures,
     reading_study,
     reading_results,
     info,

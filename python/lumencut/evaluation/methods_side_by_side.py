@@ -54,12 +54,13 @@ def panels(
 ) -> list[Panel]:
     """Return the view by mpCPR, CR, CSR by the paper's rules, and CSR by the settings.
 
-    ``radius_offset`` and ``arc_threshold`` are those of :func:`lumencut.cr`.
+    ``radius_offset`` and ``arc_threshold`` are those of :func:`lumencut.cr`. As in the paper, only CSR has
+    silhouettes.
     """
-    paper = replace(settings, **_lumencut.PAPER)
+    paper, without_lines = replace(settings, **_lumencut.PAPER), replace(settings, silhouettes=False)
     return [
-        Panel("mpCPR", renderer._by(MPCPR, camera, settings)),
-        Panel("CR", renderer._by(cr_method(radius_offset, arc_threshold), camera, settings)),
+        Panel("mpCPR", renderer._by(MPCPR, camera, without_lines)),
+        Panel("CR", renderer._by(cr_method(radius_offset, arc_threshold), camera, without_lines)),
         Panel("CSR (the paper's rules)", renderer.render(camera, paper)),
         Panel(OURS, renderer.render(camera, settings)),
     ]

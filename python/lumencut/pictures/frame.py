@@ -30,8 +30,11 @@ _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
 IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 
+#: What was blended at each pixel of a cut surface, on request.
+BLEND = ("cost", "level", "piece")
+
 #: All images that a frame may have; positions are computed from the depth.
-_IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context", "folded")
+_IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context", "folded", *BLEND)
 
 
 @by_name
@@ -60,6 +63,9 @@ class Frame(KeepsReadOnly):
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
     _folded: npt.NDArray[np.bool_] | None = None
+    _cost: npt.NDArray[np.float32] | None = None
+    _level: npt.NDArray[np.float32] | None = None
+    _piece: npt.NDArray[np.int32] | None = None
     _asked: tuple[str, ...] | None = None
     _source: FrameSource | None = None
 
@@ -124,6 +130,35 @@ class Frame(KeepsReadOnly):
         return folded
 
     @property
+    def cost(self) -> npt.NDArray[np.float32]:
+        """The cost z + λ·max(0, d − r) in mm (paper, Eq. 2), float32, shape (H, W).
+
+        It blends the levels of detail like the depth, before the depth filter. λ is ``cost_weight``, z the
+        depth, d the projected distance from the centerline, and r the radius. Only frames of
+        :meth:`Renderer.cut_surface` that name it in ``images`` have it.
+        """
+        cost: npt.NDArray[np.float32] = self._present("cost", self._cost)
+        return cost
+
+    @property
+    def level(self) -> npt.NDArray[np.float32]:
+        """The level of detail, 0 the finest, float32, shape (H, W).
+
+        2.25 stands for three quarters of level 2 and a quarter of level 3. Requested as :attr:`cost`.
+        """
+        level: npt.NDArray[np.float32] = self._present("level", self._level)
+        return level
+
+    @property
+    def piece(self) -> npt.NDArray[np.int32]:
+        """The kind of piece of the level with the larger weight, int32, shape (H, W).
+
+        0 is a stripe, 1 a wedge, 2 a half-plane, 3 a full plane. Requested as :attr:`cost`.
+        """
+        piece: npt.NDArray[np.int32] = self._present("piece", self._piece)
+        return piece
+
+    @property
     def position(self) -> npt.NDArray[np.float64]:
         """World point (mm, LPS) of the cut surface in each pixel, float64, shape (H, W, 3)."""
         depth = np.ascontiguousarray(self._present("position", self._depth), np.float32)
@@ -157,6 +192,9 @@ class Frame(KeepsReadOnly):
         if name == "folded":
             found, mend = "a frame of another method", "use mpcpr"
             raise VolumeError("folded of the frame", found, "a frame of mpCPR", mend)
+        if name in BLEND:
+            found, mend = "a frame that was not asked for it", f'use Renderer.cut_surface(images=["{name}"])'
+            raise VolumeError(f"{name} of the frame", found, f"a cut surface with {name}", mend)
         if self._asked is not None and stored not in self._asked:
             found = f"a frame that was asked for {', '.join(self._asked) or 'no image'} alone"
             raise VolumeError(f"{name} of the frame", found, f"a frame with {stored}", "name it in images=")

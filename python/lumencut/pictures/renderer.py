@@ -10,7 +10,7 @@ from typing import Any, Literal
 from lumencut import _lumencut
 from lumencut.base.checks import callback, choice
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
-from lumencut.pictures.frame import IMAGES, Frame
+from lumencut.pictures.frame import BLEND, IMAGES, Frame
 from lumencut.pictures.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.scene.camera import Camera
 from lumencut.scene.checked_settings import checked
@@ -25,6 +25,8 @@ from lumencut.scene.window import Window
 
 #: The images that need a window.
 _WINDOWED = frozenset(("image", "context"))
+
+_OF_CUT_SURFACE = ("depth", "vessel", "distance", *BLEND)
 
 
 class Renderer:
@@ -198,13 +200,29 @@ class Renderer:
         buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
         return self._frame(camera, settings, buffers, asked, source)
 
-    def cut_surface(self, camera: Camera | None = None, settings: Settings | None = None) -> Frame:
+    def cut_surface(
+        self,
+        camera: Camera | None = None,
+        settings: Settings | None = None,
+        *,
+        images: Iterable[str] | None = None,
+    ) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
+
+        Parameters
+        ----------
+        camera, settings
+            As for :meth:`render`.
+        images : iterable of str, optional
+            The images that the frame is to have, of ``"depth"``, ``"vessel"``, ``"distance"``, ``"cost"``,
+            ``"level"`` and ``"piece"``; the first three by default.
 
         Raises
         ------
         VesselTreeError
             Without a tree.
+        SettingsError
+            For an image of another name.
         DeviceError, KeyboardInterrupt
             As for :meth:`render`.
         """
@@ -213,8 +231,12 @@ class Renderer:
                 "tree of the renderer", "None", "a tree to cut along", "use render for the context alone"
             )
         camera, settings = self._view(camera, settings)
-        buffers = self._core.render(None, camera, checked(settings), self._at_once(settings))
-        return self._frame(camera, settings, buffers, None)
+        asked = None if images is None else _names(images, _OF_CUT_SURFACE)
+        names = asked if asked is not None else self._at_once(settings)
+        buffers = self._core.render(None, camera, checked(settings), names)
+        if asked is not None:
+            buffers = {name: buffers[name] for name in (*asked, "timings")}
+        return self._frame(camera, settings, buffers, asked)
 
     def _by(
         self,
@@ -359,10 +381,10 @@ def _check_kind(tree: Any) -> None:
         raise VesselTreeError("tree", type(tree).__name__, expected)
 
 
-def _names(images: Iterable[str]) -> list[str]:
+def _names(images: Iterable[str], known: tuple[str, ...] = IMAGES) -> list[str]:
     if not isinstance(images, Iterable):
-        raise SettingsError("images of the frame", repr(images), f"names of {', '.join(IMAGES)}")
+        raise SettingsError("images of the frame", repr(images), f"names of {', '.join(known)}")
     names = [images] if isinstance(images, str) else list(images)
     for name in names:
-        choice(SettingsError, "image of the frame", name, IMAGES)
+        choice(SettingsError, "image of the frame", name, known)
     return names

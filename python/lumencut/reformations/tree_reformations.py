@@ -53,9 +53,10 @@ def mpcpr(
     camera : Camera, optional
         The view; from the front, fitted to the tree by default.
     settings : Settings, optional
-        The settings; by default with windows from the data. Those of the cut surface of CSR have no effect
+        The settings; by default with windows from the data and without silhouettes, which the method does not
+        have. Those of the cut surface of CSR have no effect
         except ``centerline_smoothing``, ``silhouette_rule``, and ``unknown_radius``, which defines the lumen
-        for silhouettes. There is no depth filter, silhouettes are drawn everywhere, and a focus and chosen
+        for silhouettes. There is no depth filter, silhouettes have no reach, and a focus and chosen
         vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
         The device that shows the volume, as for :class:`Renderer`; the CPU finds the places of the pixels.
@@ -77,7 +78,7 @@ def mpcpr(
     KeyboardInterrupt
         At Ctrl-C.
     """
-    return _renderer(volume, tree, device)._by(MPCPR, camera, settings)
+    return _renderer(volume, tree, device)._by(MPCPR, camera, _or_default(settings))
 
 
 def cr(
@@ -121,7 +122,11 @@ def cr(
         As for :func:`mpcpr`.
     """
     method = cr_method(radius_offset, arc_threshold)
-    return _renderer(volume, tree, device)._by(method, camera, settings)
+    return _renderer(volume, tree, device)._by(method, camera, _or_default(settings))
+
+
+def _or_default(settings: Settings | None) -> Settings:
+    return Settings(silhouettes=False) if settings is None else settings
 
 
 def _renderer(volume: Any, tree: Any, device: Literal["auto", "cpu", "gpu"]) -> Renderer:

@@ -20,7 +20,7 @@ pub(crate) struct NearestPieces {
     pub along: [f32; PART_PIXELS],
     cost: [f32; PART_PIXELS],
     /// Twice the slot of the piece, plus 1 for a stripe: decides between equal costs.
-    piece: [u32; PART_PIXELS],
+    pub piece: [u32; PART_PIXELS],
     pub z: [f32; PART_PIXELS],
     /// Change of depth to the right and upwards (mm per mm), if a sheet is made.
     pub slope: [[f32; PART_PIXELS]; 2],

@@ -53,6 +53,25 @@ fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
     return Decision(vessel, s, beyond, sheet_radius, slope_of(here, next), is_first(key));
 }
 
+// The cost of a piece at q, without the tiers of *lumen first*.
+fn cost_of_piece(piece: u32, q: vec2f) -> f32 {
+    let here = projected[piece / 2u];
+    if piece % 2u == 0u {
+        return cost_of(here.point.z, length(q - here.point.xy), here.radius);
+    }
+    let next = projected[piece / 2u + 1u];
+    let at = foot(here, next, q);
+    let z = here.point.z + at.t * (next.point.z - here.point.z);
+    return cost_of(z, at.distance, here.radius + at.t * (next.radius - here.radius));
+}
+
+// Kind in pieces.rs: 0 stripe, 1 wedge, 2 half-plane, 3 full plane.
+fn kind_of(piece: u32) -> f32 {
+    let here = projected[piece / 2u];
+    let missing = select(0.0, 1.0, all(here.before == vec2f(0.0))) + select(0.0, 1.0, all(here.edge == vec2f(0.0)));
+    return select(1.0 + missing, 0.0, piece % 2u == 1u);
+}
+
 // The nearest piece so far; own_pieces.rs explains the fields.
 struct NearestPiece {
     along: f32,

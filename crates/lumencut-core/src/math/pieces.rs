@@ -190,6 +190,15 @@ impl Stripe {
     }
 }
 
+/// The kinds of pieces, as numbers of `Frame.piece`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Stripe = 0,
+    Wedge = 1,
+    HalfPlane = 2,
+    FullPlane = 3,
+}
+
 #[derive(Clone, Copy, Debug)]
 pub struct Wedge {
     pub point: [f32; 2],
@@ -207,5 +216,13 @@ impl Wedge {
         let beyond_before = ux * self.before[0] + uy * self.before[1];
         let after_start = ux * self.edge[0] + uy * self.edge[1];
         ((beyond_before >= 0.0) & (after_start <= 0.0), (ux * ux + uy * uy).sqrt())
+    }
+
+    pub fn kind(&self) -> Kind {
+        match [self.before, self.edge].map(|edge| edge == [0.0; 2]) {
+            [false, false] => Kind::Wedge,
+            [true, true] => Kind::FullPlane,
+            _ => Kind::HalfPlane,
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::frame::{Frame, Timing};
 use crate::geometry::Geometry;
-use crate::stages::depth::Sheet;
+use crate::stages::depth::{Blend, Sheet};
 use crate::stages::focus::Shares;
 
 /// The images by their names in the table of stages; a missing image is empty.
@@ -15,6 +15,7 @@ pub struct Images {
     pub depth: Vec<f32>,
     pub vessel: Vec<i32>,
     pub sheet: Vec<Sheet>,
+    pub blend: Vec<Blend>,
     pub leap: Vec<u32>,
     pub focus: Vec<Shares>,
     pub value: Vec<f32>,
@@ -30,8 +31,8 @@ impl Images {
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };
-        let Self { vessel, leap, focus, distance, .. } = self;
-        Frame { vessel, leap, focus, distance, timings, ..Frame::of(geometry) }
+        let Self { vessel, blend, leap, focus, distance, .. } = self;
+        Frame { vessel, blend, leap, focus, distance, timings, ..Frame::of(geometry) }
     }
 
     pub(super) fn into_frame(self, mut frame: Frame, timings: Vec<Timing>) -> Frame {

@@ -46,8 +46,11 @@ impl CutSurfacePass<'_> {
                 images.vessel = vec![0; pixels];
                 // Overwrites the sheet of the previous view.
                 resize(&mut images.sheet, if self.has_sheet { pixels } else { 0 }, [0.0; 4], work.stop)?;
-                let Images { unfiltered_depth, vessel, sheet, .. } = images;
-                let written = DepthImages { depth: unfiltered_depth, vessel, sheet };
+                if Stage::has_blend(self.wanted) {
+                    images.blend = vec![[0.0; 4]; pixels];
+                }
+                let Images { unfiltered_depth, vessel, sheet, blend, .. } = images;
+                let written = DepthImages { depth: unfiltered_depth, vessel, sheet, blend };
                 depth(work, &self.surface, &images.distance, written)
             }
             Stage::Leap => {
@@ -245,22 +248,25 @@ pub struct SurfaceDetails {
     pub sheet: Vec<Sheet>,
     /// Bits that mark depth jumps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// The strength of the silhouettes, 0 to 1.
+    /// The strength of the silhouettes as drawn, 0 to 1: reach and focus reduce it.
     pub strength: Vec<f32>,
 }
 
 impl SurfaceDetails {
-    pub(super) const WANTED: ImageSet = ImageSet::of(&[Image::Sheet, Image::Leap]);
+    pub(super) const WANTED: ImageSet = ImageSet::of(&[Image::Sheet, Image::Leap, Image::Focus]);
 
     pub(super) fn of(pass: &CutSurfacePass) -> Result<Self> {
         let (settings, mut images) = (pass.settings, Images::default());
         for stage in Stage::of_cut_surface(settings, Self::WANTED) {
             pass.run(stage, &mut images)?;
         }
-        let Images { unfiltered_depth, depth, vessel, leap, sheet, .. } = images;
+        let Images { unfiltered_depth, depth, vessel, leap, sheet, focus, .. } = images;
         let depth = if depth.is_empty() { unfiltered_depth } else { depth };
         let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap, value: &[] };
-        let strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
+        let mut strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
+        for (strength, [surface, line]) in strength.iter_mut().zip(&focus) {
+            *strength *= surface * line;
+        }
         Ok(Self { sheet, leap, strength })
     }
 }

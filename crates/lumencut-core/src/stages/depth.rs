@@ -2,11 +2,13 @@
 //! of detail (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
 
 mod blend;
+mod blended;
 mod nearest;
 mod own;
 
 use rayon::prelude::*;
 
+use self::blended::Blended;
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
@@ -129,15 +131,20 @@ pub type Sheet = [f32; 4];
 /// The gap in a sheet if a chosen vessel takes precedence at the pixel.
 pub const CHOSEN_GAP: f32 = -1.0;
 
-/// The images that the stage writes. `sheet` is empty if nothing reads it.
+/// Per pixel: the cost z + λ · max(0, d − r) and the level, both blended like the depth before the filter, and the
+/// [`crate::math::pieces::Kind`] of the piece of the level with the larger weight, and this weight.
+pub type Blend = [f32; 4];
+
+/// The images that the stage writes. `sheet` and `blend` are empty if nothing reads them.
 #[derive(Debug)]
 pub struct DepthImages<'a> {
     pub depth: &'a mut [f32],
     pub vessel: &'a mut [i32],
     pub sheet: &'a mut [Sheet],
+    pub blend: &'a mut [Blend],
 }
 
-/// Writes depth (mm), vessel id and sheet of the cut surface at each pixel of the view. The level choice
+/// Writes depth (mm), vessel id, sheet and blend of the cut surface at each pixel of the view. The level choice
 /// `nearest` needs the distances; for `own` they may be empty.
 pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     let seeds = [Seeds::default(); MAX_LEVELS + 1];
@@ -152,7 +159,7 @@ pub(crate) fn depth_by<S: Search>(
     images: DepthImages,
     search: impl Fn() -> S + Sync,
 ) -> Result<()> {
-    let DepthImages { depth, vessel, sheet } = images;
+    let DepthImages { depth, vessel, sheet, blend } = images;
     work.expect_whole(Image::UnfilteredDepth, depth);
     work.expect_whole(Image::Vessel, vessel);
     if surface.level_choice == LevelChoice::Nearest {
@@ -161,15 +168,18 @@ pub(crate) fn depth_by<S: Search>(
     if !sheet.is_empty() {
         work.expect_whole(Image::Sheet, sheet);
     }
+    if !blend.is_empty() {
+        work.expect_whole(Image::Blend, blend);
+    }
     let chunk = work.tile_row();
-    let mut sheets: Vec<&mut [Sheet]> = sheet.chunks_mut(chunk).collect();
-    sheets.resize_with(depth.len().div_ceil(chunk), Default::default);
-    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets);
-    rows.enumerate().try_for_each(|(row, ((depth, vessel), sheet))| {
+    let row_count = depth.len().div_ceil(chunk);
+    let (sheets, blends) = (rows_of(sheet, chunk, row_count), rows_of(blend, chunk, row_count));
+    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets).zip(blends);
+    rows.enumerate().try_for_each(|(row, (((depth, vessel), sheet), blend))| {
         work.begin(depth.len())?;
         let from = (row * chunk).min(distance.len());
         let distance = &distance[from..(from + depth.len()).min(distance.len())];
-        let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet }, search());
+        let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet, blend }, search());
         if surface.lumen_first {
             dispatch(work.isa, DepthKernel::<S, true> { row, search });
         } else {
@@ -179,6 +189,13 @@ pub(crate) fn depth_by<S: Search>(
     })
 }
 
+/// The rows of tiles of an image; empty ones if the image is not made.
+fn rows_of(image: &mut [[f32; 4]], chunk: usize, count: usize) -> Vec<&mut [[f32; 4]]> {
+    let mut rows: Vec<_> = image.chunks_mut(chunk).collect();
+    rows.resize_with(count, Default::default);
+    rows
+}
+
 struct DepthRow<'a> {
     surface: &'a CutSurface<'a>,
     row: usize,
@@ -186,6 +203,7 @@ struct DepthRow<'a> {
     depth: &'a mut [f32],
     vessel: &'a mut [i32],
     sheet: &'a mut [Sheet],
+    blend: &'a mut [Blend],
 }
 
 struct DepthKernel<'a, S: Search, const LUMEN_FIRST: bool> {
@@ -215,18 +233,23 @@ impl DepthRow<'_> {
         let (width, with_sheet) = (camera.size()[0], !self.sheet.is_empty());
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
+            let mut blended = (!self.blend.is_empty()).then(Blended::new);
+            let of_tile = blended.as_mut();
             let over = match surface.level_choice {
-                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search),
-                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search),
+                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search, of_tile),
+                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search, of_tile),
                 LevelChoice::Nearest => {
                     let distance = gather(self.distance, width, column);
-                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search)
+                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search, of_tile)
                 }
             };
             scatter(&over.depth, self.depth, width, column);
             scatter(&over.vessel, self.vessel, width, column);
             if with_sheet {
                 scatter(&over.sheet, self.sheet, width, column);
+            }
+            if let Some(Blended { blend }) = &blended {
+                scatter(blend, self.blend, width, column);
             }
         }
     }

@@ -6,11 +6,13 @@
 const CHOSEN_GAP: f32 = -1.0;
 
 override HAS_SHEET: bool = false;
+override HAS_BLEND: bool = false;
 
 @group(0) @binding(4) var<storage, read> vessel_of_slot: array<i32>;
 @group(0) @binding(5) var<storage, read_write> depth_image: array<f32>;
 @group(0) @binding(6) var<storage, read_write> vessel_image: array<i32>;
-@group(0) @binding(7) var<storage, read_write> sheet_image: array<vec4f>;
+// The sheet or the blend.
+@group(0) @binding(7) var<storage, read_write> details_image: array<vec4f>;
 @group(0) @binding(9) var<storage, read> distance_image: array<f32>;
 
 // The finer of the two levels that a pixel blends, and the weight of the coarser one (0 if it is not used).
@@ -20,8 +22,8 @@ var<private> coarse_weight: array<vec4f, MAX_QUADS>;
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
-// The sheet so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
-var<private> sheets: array<array<vec4f, QUAD>, MAX_QUADS>;
+// The sheet or blend so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
+var<private> details: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
 
@@ -85,19 +87,42 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let q = vec2f(quad_x[a][c], row_y[r]);
                     let found = decide(level, winner_key[n][c], piece, vessel, q);
                     // A pixel shows lumen if every level that it blends shows lumen.
-                    let radius = abs(sheets[n][c].z) + weight[c] * abs(found.sheet_radius);
-                    let is_outside_lumen = sheets[n][c].z < 0.0 || found.sheet_radius < 0.0;
-                    let slope = sheets[n][c].xy + weight[c] * found.slope;
-                    sheets[n][c] = vec4f(slope, select(radius, -radius, is_outside_lumen), sheets[n][c].w);
+                    let radius = abs(details[n][c].z) + weight[c] * abs(found.sheet_radius);
+                    let is_outside_lumen = details[n][c].z < 0.0 || found.sheet_radius < 0.0;
+                    let slope = details[n][c].xy + weight[c] * found.slope;
+                    details[n][c] = vec4f(slope, select(radius, -radius, is_outside_lumen), details[n][c].w);
                     let counted = u32(vessel) + 1u;
-                    if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == CHOSEN_GAP) {
-                        sheets[n][c].w = CHOSEN_GAP;
+                    if found.is_first && (finer_vessel[n][c] == 0u || details[n][c].w == CHOSEN_GAP) {
+                        details[n][c].w = CHOSEN_GAP;
                     } else if finer_vessel[n][c] != 0u {
                         let apart = abs(found.arc_length - finer_arc_length[n][c]);
-                        sheets[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
+                        details[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
                     }
                     finer_vessel[n][c] = counted;
                     finer_arc_length[n][c] = found.arc_length;
+                }
+            }
+        }
+    }
+}
+
+// `so_far` with one more level in it; `piece` counts the slots of all levels. depth.rs explains the fields.
+fn with_level(so_far: vec4f, level: f32, weight: f32, piece: u32, q: vec2f) -> vec4f {
+    let sum = so_far.xy + weight * vec2f(cost_of_piece(piece, q), level);
+    let ruling = select(so_far.zw, vec2f(kind_of(piece), weight), weight > so_far.w);
+    return vec4f(sum, ruling);
+}
+
+fn add_to_blends(level: u32) {
+    for (var r = 0u; r < ROWS; r++) {
+        for (var a = 0u; a < ACROSS; a++) {
+            let n = quad_of(a, r);
+            let weight = weights(n, f32(level));
+            for (var c = 0u; c < QUAD; c++) {
+                if weight[c] > 0.0 {
+                    let piece = winner_piece[n][c] + 2u * parameters.levels[level].first_slot;
+                    let q = vec2f(quad_x[a][c], row_y[r]);
+                    details[n][c] = with_level(details[n][c], f32(level), weight[c], piece, q);
                 }
             }
         }
@@ -120,6 +145,9 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
         if HAS_SHEET {
             add_to_sheets(tile, level);
         }
+        if HAS_BLEND {
+            add_to_blends(level);
+        }
     }
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
@@ -128,8 +156,8 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
                 if in_view(pixel) {
                     depth_image[place_of(pixel)] = blended[quad_of(a, r)][c];
                     vessel_image[place_of(pixel)] = vessel_of_slot[ruling_slot[quad_of(a, r)][c]];
-                    if HAS_SHEET {
-                        sheet_image[place_of(pixel)] = sheets[quad_of(a, r)][c];
+                    if HAS_SHEET || HAS_BLEND {
+                        details_image[place_of(pixel)] = details[quad_of(a, r)][c];
                     }
                 }
             }
@@ -137,10 +165,11 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
     }
 }
 
-fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
+// `winner` is the piece shown at the finest level.
+fn blend_own(place: u32, decision: Decision, z: f32, winner: u32, q: vec2f) {
     let f = min(sqrt(parameters.selection * decision.beyond_wall), f32(parameters.coarsest));
     let fine = floor(f);
-    var fine_piece = NearestPiece(0.0, 0.0, 0.0, NO_SLOT, z, decision.slope);
+    var fine_piece = NearestPiece(0.0, 0.0, 0.0, winner, z, decision.slope);
     if fine > 0.0 {
         fine_piece = nearest_piece(u32(fine), decision, q);
     }
@@ -154,7 +183,12 @@ fn blend_own(place: u32, decision: Decision, z: f32, q: vec2f) {
     if HAS_SHEET {
         let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
         let gap = select(abs(coarse_piece.along - fine_piece.along), CHOSEN_GAP, decision.is_first);
-        sheet_image[place] = vec4f(slope, decision.sheet_radius, gap);
+        details_image[place] = vec4f(slope, decision.sheet_radius, gap);
+    }
+    if HAS_BLEND {
+        let of_fine = with_level(vec4f(0.0), fine, 1.0 - weight, fine_piece.piece, q);
+        let of_both = with_level(of_fine, fine + 1.0, weight, coarse_piece.piece, q);
+        details_image[place] = of_both;
     }
 }
 
@@ -179,7 +213,8 @@ fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) t
                     let q = vec2f(quad_x[a][c], row_y[r]);
                     let vessel = vessel_of_slot[parameters.levels[0].first_slot + winner_piece[n][c] / 2u];
                     let decision = decide(0u, winner_key[n][c], winner_piece[n][c], vessel, q);
-                    blend_own(place_of(pixel), decision, winner_z[n][c], q);
+                    let winner = winner_piece[n][c] + 2u * parameters.levels[0].first_slot;
+                    blend_own(place_of(pixel), decision, winner_z[n][c], winner, q);
                 }
             }
         }

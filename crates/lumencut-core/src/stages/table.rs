@@ -18,6 +18,9 @@ pub enum Image {
     Vessel,
     /// Slopes, radius and gap of the cut surface before the depth filter, four f32 (`stages::depth::Sheet`).
     Sheet,
+    /// Cost, level and kind of piece before the depth filter, four f32 (`stages::depth::Blend`). A view that shows the
+    /// volume has none.
+    Blend,
     /// Bits that mark jumps of the cut surface's depth, u32 (`stages::leap`).
     Leap,
     /// Shares of the cut surface and its silhouettes that are shown, 0 to 1, two f32.
@@ -38,12 +41,13 @@ pub enum Image {
 
 impl Image {
     /// Every image.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Distance,
         Self::UnfilteredDepth,
         Self::Depth,
         Self::Vessel,
         Self::Sheet,
+        Self::Blend,
         Self::Leap,
         Self::Focus,
         Self::Value,
@@ -57,13 +61,16 @@ impl Image {
 
 impl Image {
     /// The images of a frame, by their names.
-    const OF_FRAME: [(&'static str, Self); 6] = [
+    const OF_FRAME: [(&'static str, Self); 9] = [
         ("image", Self::Picture),
         ("depth", Self::Depth),
         ("vessel", Self::Vessel),
         ("distance", Self::Distance),
         ("value", Self::Value),
         ("context", Self::Context),
+        ("cost", Self::Blend),
+        ("level", Self::Blend),
+        ("piece", Self::Blend),
     ];
 
     /// The image that a frame has under this name. Fails with [`ErrorKind::Settings`] for another name.
@@ -216,7 +223,7 @@ impl Stage {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => &[],
             Self::Distance => &[Image::Distance],
-            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet],
+            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
             Self::Focus => &[Image::Focus],
@@ -253,6 +260,13 @@ impl Stage {
     /// Whether the stage `depth` writes the sheet: if `leap` needs it, or if it is wanted.
     pub fn has_sheet(settings: &Settings, wanted: ImageSet) -> bool {
         wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
+    }
+
+    /// Whether the stage `depth` writes the blend. No view that shows the volume has it, so on the GPU it has the buffer of the
+    /// context.
+    pub const fn has_blend(wanted: ImageSet) -> bool {
+        let shows_volume = wanted.has(Image::Picture) || wanted.has(Image::Context);
+        wanted.has(Image::Blend) && !shows_volume
     }
 
     /// The stages, in order, that show the volume at the positions of `geometry`; the frame shall have the

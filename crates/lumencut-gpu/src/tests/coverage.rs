@@ -13,7 +13,6 @@ use lumencut_scenes::settings::{paper_unfiltered, unfiltered};
 use lumencut_scenes::trees::tree;
 
 use super::every_device;
-use crate::device::Device;
 use crate::renderer::GpuRenderer;
 
 /// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this moves
@@ -120,8 +119,7 @@ fn uncovered(depth: &[f32], vessel: &[i32], [low, high]: [f64; 2], vessels: usiz
 }
 
 /// Renders a tree in all views; returns the number of pixels.
-fn cover(device: &Arc<Device>, name: &str, tree: &VesselTree, direction: [f64; 3]) -> usize {
-    let mut renderer = GpuRenderer::new(Arc::clone(device));
+fn cover(renderer: &mut GpuRenderer, name: &str, tree: &VesselTree, direction: [f64; 3]) -> usize {
     let scene = Scene::default().with_tree(tree.clone());
     let mut pixels = 0;
     for (size, spacing) in VIEWS {
@@ -150,10 +148,11 @@ fn cover(device: &Arc<Device>, name: &str, tree: &VesselTree, direction: [f64; 3
 #[test]
 fn no_pixel_is_left_uncovered_on_any_gpu() {
     for device in every_device() {
-        let mut pixels = 0;
+        // One renderer, since compiling its shaders takes longer than rendering.
+        let (mut renderer, mut pixels) = (GpuRenderer::new(Arc::clone(&device)), 0);
         for direction in DIRECTIONS {
             for (name, tree) in trees(direction) {
-                pixels += cover(&device, name, &tree, direction);
+                pixels += cover(&mut renderer, name, &tree, direction);
             }
         }
         let found = device.description();

@@ -19,8 +19,15 @@ use crate::images::Images;
 use crate::levels::DeviceLevels;
 use crate::recording::Recording;
 
+type OnGpu<'a> = (&'a Device, CutSurfaceStages);
+
 /// The shares of cut surface and silhouettes, made on the GPU and on the CPU.
-fn both(device: &Device, tree: &VesselTree, camera: &Camera, settings: &Settings) -> [Vec<f32>; 2] {
+fn both(
+    (device, stages): &mut OnGpu,
+    tree: &VesselTree,
+    camera: &Camera,
+    settings: &Settings,
+) -> [Vec<f32>; 2] {
     let request = Request { images: ImageSet::of(&[Image::Focus]), ..Request::new(camera, settings) };
     let scene = Scene::default().with_tree(tree.clone());
     let expected = CpuRenderer::default().render(&scene, &request).unwrap().focus;
@@ -28,7 +35,6 @@ fn both(device: &Device, tree: &VesselTree, camera: &Camera, settings: &Settings
     let mut on_device = DeviceLevels::new(device, &levels[..=settings.levels]).unwrap();
     on_device.put_first(device, &levels[..=settings.levels], &settings.focus_vessels);
     let images = Images::new(device, camera.size()).unwrap();
-    let mut stages = CutSurfaceStages::new(device);
     let (mut recording, view) = (Recording::new(device), on_gpu(device, camera));
     stages.look(device, &on_device, &request);
     stages.project(&mut recording, &view, &on_device, settings.levels);
@@ -40,6 +46,7 @@ fn both(device: &Device, tree: &VesselTree, camera: &Camera, settings: &Settings
 #[test]
 fn shares_are_those_of_the_cpu() {
     let Some(device) = device() else { return };
+    let mut gpu = (device, CutSurfaceStages::new(device));
     let along = tree(vec![vessel(&[[0.0, -30.0, 0.0], [0.0, 30.0, 0.0], [9.0, 31.0, 4.0]], 5.0)]);
     for tree in [trefoil(200), random_tree(5, 30, 40, 3.0, 40.0).unwrap(), along] {
         for (margin, fade, silhouette_reach) in [
@@ -53,7 +60,7 @@ fn shares_are_those_of_the_cpu() {
             let settings = Settings { focus, silhouette_reach, ..Settings::default() };
             for size in SIZES {
                 let camera = view([0.2, 1.0, -0.4], size, 0.6);
-                let [found, expected] = both(device, &tree, &camera, &settings);
+                let [found, expected] = both(&mut gpu, &tree, &camera, &settings);
                 SHARE.assert_same(&found, &expected, &format!("{size:?}, {margin} mm + {fade} mm"));
             }
         }
@@ -63,12 +70,13 @@ fn shares_are_those_of_the_cpu() {
 #[test]
 fn shares_of_chosen_vessels_are_those_of_the_cpu() {
     let Some(device) = device() else { return };
+    let mut gpu = (device, CutSurfaceStages::new(device));
     let tree = random_tree(5, 30, 40, 3.0, 40.0).unwrap();
     for (margin, fade, others_strength) in [(2.0, 6.0, 0.5), (-1.5, 4.0, 0.0), (0.5, 40.0, 0.9)] {
         let focus = Some(Focus { margin, fade });
         let settings = Settings { focus, focus_vessels: vec![3, 17], others_strength, ..Settings::default() };
         let camera = view([0.2, 1.0, -0.4], [96, 80], 0.6);
-        let [found, expected] = both(device, &tree, &camera, &settings);
+        let [found, expected] = both(&mut gpu, &tree, &camera, &settings);
         SHARE.assert_same(&found, &expected, &format!("{margin} mm + {fade} mm, {others_strength}"));
     }
 }
@@ -76,13 +84,14 @@ fn shares_of_chosen_vessels_are_those_of_the_cpu() {
 #[test]
 fn a_hard_edge_lies_where_that_of_the_cpu_does() {
     let Some(device) = device() else { return };
+    let mut gpu = (device, CutSurfaceStages::new(device));
     let tube = tree(vec![vessel(&[[-50.0, 0.0, 0.0], [50.0, 0.0, 0.0]], 4.0)]);
     let settings = Settings {
         focus: Some(Focus { margin: 1.0, fade: 0.0 }),
         silhouette_reach: Some(0.0),
         ..Settings::default()
     };
-    let [found, expected] = both(device, &tube, &front([33, 47], 0.7), &settings);
+    let [found, expected] = both(&mut gpu, &tube, &front([33, 47], 0.7), &settings);
     assert_eq!(found, expected);
     assert!(found.contains(&0.0) && found.contains(&1.0));
 }

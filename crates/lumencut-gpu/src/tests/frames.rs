@@ -14,6 +14,8 @@ use lumencut_core::settings::{
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, crossing, trefoil, y_junction};
 use lumencut_scenes::pictures::context_alone;
+use lumencut_scenes::random_tree::random_tree;
+use lumencut_scenes::tolerances::{COST, DEPTH, LEVEL};
 use lumencut_scenes::views::{front, view};
 
 use super::both_sides::{BothSides, assert_same};
@@ -232,6 +234,42 @@ fn the_cut_surface_alone() {
     let gpu = pollster::block_on(GpuRenderer::new(Arc::clone(device)).render(&scene, &request)).unwrap();
     assert!(gpu.image.is_empty() && gpu.value.is_empty());
     assert_same(&gpu, &cpu);
+}
+
+#[test]
+fn blends_of_the_cut_surface_are_those_of_the_cpu() {
+    let Some(device) = shared() else { return };
+    let tree = random_tree(92, 8, 50, 2.0, 50.0).unwrap();
+    let (scene, camera) = (Scene::default().with_tree(tree), view([0.3, 1.0, 0.2], SIZE, 1.1));
+    for settings in [Settings::default(), with(|s| s.lumen_first = false), Settings::paper()] {
+        for more in [&[][..], &[Image::Leap], &[Image::Distance, Image::Depth]] {
+            let images = ImageSet::of(&[Image::Blend]).and(ImageSet::of(more));
+            let request = Request { images, ..Request::new(&camera, &settings) };
+            let cpu = CpuRenderer::default().render(&scene, &request).unwrap();
+            let mut renderer = GpuRenderer::new(Arc::clone(device));
+            let gpu = pollster::block_on(renderer.render(&scene, &request)).unwrap();
+            assert_eq!((gpu.images(), cpu.images()), (images, images));
+            let channel = |frame: &Frame, c: usize| frame.blend.iter().map(|b| b[c]).collect::<Vec<_>>();
+            for (c, name, tolerance) in [(0, "cost", COST), (1, "level", LEVEL), (2, "piece", DEPTH)] {
+                let [found, expected] = [&gpu, &cpu].map(|frame| channel(frame, c));
+                assert!(expected.iter().any(|number| *number != expected[0]), "something to compare");
+                tolerance.assert_same(&found, &expected, name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_view_that_shows_the_volume_has_no_blend() {
+    let Some(device) = shared() else { return };
+    let mut both = BothSides::new(device, y_junction().unwrap());
+    let (camera, settings) = (front(SIZE, 0.8), Settings::default());
+    let images = ImageSet::of(&[Image::Blend, Image::Picture]);
+    let request = Request { images, ..Request::new(&camera, &settings) };
+    let scene = Scene::new(both.phantom.volume().unwrap(), both.phantom.tree.clone());
+    let frame = pollster::block_on(both.gpu.render(&scene, &request)).unwrap();
+    assert_eq!(frame.images(), ImageSet::of(&[Image::Picture]));
+    assert_eq!(CpuRenderer::default().render(&scene, &request).unwrap().images(), frame.images());
 }
 
 #[test]

@@ -79,8 +79,9 @@ fn sheet_on_gpu(device: &Device, tree: &LeveledTree, request: &Request) -> Vec<S
     stages.look(device, &levels, request);
     stages.project(&mut recording, &view, &levels, settings.levels);
     stages.distance(&mut recording, &view, &levels, &images);
-    let rules = DepthRules::of(request);
-    stages.depth(&mut recording, &view, &levels, rules, &images, &images.unfiltered_depth);
+    for rules in DepthRules::of(request) {
+        stages.depth(&mut recording, &view, &levels, rules, &images, &images.unfiltered_depth);
+    }
     recording.read(&images.sheet, 16 * images.pixels() as u64);
     finish(recording).numbers(0)
 }

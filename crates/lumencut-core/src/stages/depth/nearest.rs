@@ -1,6 +1,7 @@
 //! The paper's level choice: at each level the piece with the smallest key, of any vessel.
 
 use super::blend::LevelBlend;
+use super::blended::Blended;
 use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
@@ -15,6 +16,7 @@ impl CutSurface<'_> {
         distance: &[f32; PIXELS],
         with_sheet: bool,
         search: &mut impl Search,
+        mut blended: Option<&mut Blended>,
     ) -> TileSurface {
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
@@ -35,6 +37,13 @@ impl CutSurface<'_> {
                 ruling_weight[l] = if rules { weight[l] } else { ruling_weight[l] };
                 ruling_level[l] = if rules { level as u32 } else { ruling_level[l] };
                 slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
+            }
+            if let Some(blended) = &mut blended {
+                let own = self.own_pieces(level);
+                for l in 0..PIXELS {
+                    let at = [tile.x[l], tile.y[l]];
+                    blended.add(l, (level, weight[l]), own, envelope.piece[l], at);
+                }
             }
             if with_sheet {
                 // Pixels where no piece was found do not use this level, so any slot will do.

@@ -1,6 +1,7 @@
 //! The level choice `own`: the piece shown on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
+use super::blended::Blended;
 use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};
 use crate::math::decision::Decision;
 use crate::math::lanes::{PART_PIXELS, PIXELS, places};
@@ -14,6 +15,7 @@ impl CutSurface<'_> {
         &self,
         tile: &Tile,
         search: &mut impl Search,
+        mut blended: Option<&mut Blended>,
     ) -> TileSurface {
         let mut winners = Envelope::new(&[1.0; PIXELS]);
         search.lowest::<LUMEN_FIRST>(0, tile, &self.rule, &mut winners);
@@ -21,6 +23,12 @@ impl CutSurface<'_> {
         let decision = Decision::of::<LUMEN_FIRST>(&winners, finest.projected, tile, &self.rule);
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, &decision.beyond_wall);
         let mut sum = Sum::of_winners(&blend, &winners, &decision);
+        if let Some(blended) = &mut blended {
+            for l in 0..PIXELS {
+                let (weight, at) = (blend.weight(0.0, l), [tile.x[l], tile.y[l]]);
+                blended.add(l, (0, weight), finest, winners.piece[l], at);
+            }
+        }
         // The finest level comes first: the coarse term is added to the fine one.
         for level in places(blend.needed() & !1) {
             let mut weight = [0.0; PIXELS];
@@ -29,9 +37,16 @@ impl CutSurface<'_> {
             }
             for (p, weight) in weight.as_chunks::<PART_PIXELS>().0.iter().enumerate() {
                 if weight.iter().any(|weight| *weight > 0.0) {
-                    let mut nearest = NearestPieces::new(weight);
-                    search.own::<SHEET>(self.own_pieces(level), &decision.part(tile, p), &mut nearest);
+                    let (mut nearest, part) = (NearestPieces::new(weight), decision.part(tile, p));
+                    search.own::<SHEET>(self.own_pieces(level), &part, &mut nearest);
                     sum.add::<SHEET>(p, weight, &nearest);
+                    if let Some(blended) = &mut blended {
+                        for l in 0..PART_PIXELS {
+                            let (l_of_tile, at) = (p * PART_PIXELS + l, [part.x[l], part.y[l]]);
+                            let own = self.own_pieces(level);
+                            blended.add(l_of_tile, (level, weight[l]), own, nearest.piece[l], at);
+                        }
+                    }
                 }
             }
         }
