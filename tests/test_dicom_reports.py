@@ -165,7 +165,6 @@ def test_what_a_reader_made_by_hand_is_called_so(tmp_path):
     narrow, normal, _, along = groups(tmp_path / "a.dcm")
     said = [[one.TextValue for one in child(group, "Comment")] for group in (narrow, normal, along)]
     assert said == [["Contour by hand: the reader drew it"], [], ["Centerline by hand: the reader moved it"]]
-    # An automatic report says nothing of the kind.
     narrow, _, _, along = groups(save(tmp_path, stenoses=[graded()]))
     assert child(narrow, "Comment") == child(along, "Comment") == []
 

@@ -181,7 +181,6 @@ def test_measure_says_where_a_line_was_moved_in_the_viewer(tmp_path):
     volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
     session = write_session(tmp_path / "saved.mrk.json", scene.tree, marks=MARKS, fwhm=0.9, format=2)
     content = json.loads(session.read_text())
-    # The tube is straight.
     places = np.linalg.norm(scene.tree[0].points - scene.tree[0].points[0], axis=1)
     moved = [bool(10 <= place <= 20) for place in places]
     content["LumencutSession"]["vessels"][0]["by_hand"] = moved

@@ -15,7 +15,6 @@ const numbers = () => tube.viewer.page.getByTestId('section-numbers');
 const grip = (n: number): Locator =>
   tube.viewer.pane('section').getByRole('button', { name: `Grip ${n} of the contour` });
 const edit = () => tube.button('Edit contour');
-/** Colour and dashes of the contour. */
 const drawing = () =>
   tube.viewer
     .pane('section')

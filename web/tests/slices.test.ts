@@ -19,7 +19,6 @@ import { expectNear } from './helpers';
 
 const HAIR: Vector = [12, -7, 30];
 const SIZE = [301, 201] as const;
-/** Planes after turns in all three slices. */
 const OBLIQUE = turnedSlices(
   turnedSlices(turnedSlices(STANDARD, 'axial', 0.4), 'coronal', -1.1),
   'sagittal',

@@ -15,7 +15,6 @@ export const isVector = (value: unknown): value is Vector =>
 export const isObject = (value: unknown): value is Record<string, unknown> =>
   value !== null && typeof value === 'object' && !Array.isArray(value);
 
-/** Whether both are unit vectors, perpendicular to each other. */
 export function areAxes(a: unknown, b: unknown): boolean {
   const isZero = (number: number) => Math.abs(number) < ROUNDING;
   return isVector(a) && isVector(b) && isZero(length(a) - 1) && isZero(length(b) - 1) && isZero(dot(a, b));

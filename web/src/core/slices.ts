@@ -6,7 +6,6 @@ import { dot, scale, subtract, turned, unit } from './vectors';
 
 export const SLICE_NAMES: readonly SliceName[] = ['axial', 'coronal', 'sagittal'];
 
-/** Words for the modes of a slab, in the order of the choice. */
 export const SLAB_MODES: readonly (readonly [string, string])[] = [
   ['max', 'MIP'],
   ['mean', 'mean'],

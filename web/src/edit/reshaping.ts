@@ -17,7 +17,6 @@ const changed = (line: LineId, how: Change): Promise<readonly Vector[]> =>
     : engine.ask('smoothed', { line, sigma: how.sigma });
 
 const latest = new Latest();
-/** The change that is previewed; null while there is none. */
 let shown: Change | null = null;
 
 export function previewLine(line: LineId, how: Change): void {
@@ -36,7 +35,6 @@ export function forgetLinePreview(): void {
   showReshaped(null);
 }
 
-/** Makes the previewed change an edit of the vessel. */
 export async function reshapeLine(id: number): Promise<void> {
   const how = shown;
   if (how) {

@@ -18,7 +18,6 @@ export const CONTOUR = {
   byHand: '#b4ff39',
   outer: '#ff5ad0',
 } as const;
-/** Dashes of a contour by hand (pixels). */
 export const BY_HAND_DASHES = [9, 4] as const;
 /** The flag of contours drawn by hand. */
 const BY_HAND = 'by hand';
@@ -26,7 +25,6 @@ const BY_HAND = 'by hand';
 export const isByHand = (profile: Profile, number: number): boolean =>
   profile.flags[number]?.includes(BY_HAND) ?? false;
 
-/** Colour of a section's contour. */
 export const contourColor = (profile: Profile, number: number): string => {
   const automatic = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
   return isByHand(profile, number) ? CONTOUR.byHand : automatic;

@@ -10,7 +10,6 @@ export interface HandleProps {
   readonly color: string;
   readonly kind: string;
   readonly style?: Readonly<Record<string, string>>;
-  /** Whether the tab key reaches the handle. */
   readonly isReachable?: boolean;
   onBegin?(): void;
   /** Called with the pointer position during a drag (CSS pixels from the top left of the overlay). */

@@ -62,7 +62,6 @@ export const windowChanged = (before: Window): void =>
 export const slicesChanged = (words: string, before: Slices): void =>
   viewChanged(words, { ...viewNow(), slices: before });
 
-/** Records a change of the view as one undo step. */
 export function viewChanged(words: string, before: UndoneView): void {
   const [document, after] = [document_.value, viewNow()];
   const isSame = before.window.every((value, n) => value === after.window[n]);

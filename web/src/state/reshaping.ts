@@ -2,7 +2,6 @@
 import { batch, signal } from '@preact/signals';
 import type { Vector } from '../core/messages';
 
-/** Whether slices and section show the grips of the picked vessel's line. */
 export const isReshaping = signal(false);
 
 /** The line as changed so far; null while nothing is changed. */

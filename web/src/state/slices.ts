@@ -7,14 +7,12 @@ import { slicesChanged } from './history';
 import { hasMillimetres } from './millimetres';
 import { layout, maximised, slices, TURN_STEP } from './store';
 
-/** Whether the slices show the lines of the other planes, which can be dragged. */
 export const areLinesShown = signal(false);
 
 export function showLines(areShown: boolean): void {
   areLinesShown.value = areShown;
 }
 
-/** Shows the lines in all three slices, or hides them. */
 export function toggleLines(): void {
   batch(() => {
     areLinesShown.value = !areLinesShown.value;
@@ -55,7 +53,6 @@ export function turnBySteps(about: SliceName, steps: number): void {
   endTurn();
 }
 
-/** Makes the planes axial, coronal and sagittal again. */
 export function straighten(): void {
   const before = slices.value;
   slices.value = before.slab ? { ...STANDARD, slab: before.slab } : STANDARD;

@@ -79,7 +79,6 @@ export const cprFeature = signal<Feature | null>(null);
 /** Which side of the lumen the CPR follows, narrowest or widest; null for a constant rotation. */
 export const cprRoll = signal<Roll | null>(null);
 
-/** Planes and slab of the slices. */
 export const slices = signal<Slices>(STANDARD);
 
 export const layout = signal<Layout>('strip');

@@ -6,8 +6,7 @@ import { contents } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
 import { isReshaping, showLineGrips } from '../state/reshaping';
 
-/** Largest smoothing of the slider (mm). */
-const SMOOTHEST = 20;
+const SMOOTHEST_MM = 20;
 
 interface LineProps {
   readonly vessel: DocumentVessel;
@@ -42,7 +41,7 @@ function Smoothing({ vessel }: LineProps) {
       <input
         type="range"
         min="0"
-        max={SMOOTHEST}
+        max={SMOOTHEST_MM}
         step="0.5"
         value={sigma}
         onInput={(event) => {
@@ -61,7 +60,6 @@ function Smoothing({ vessel }: LineProps) {
   );
 }
 
-/** Says that a line was changed by hand. */
 export const LineByHand = ({ vessel }: LineProps) =>
   contents.value.get(vessel.line)?.by_hand ? (
     <small title="The reader moved or smoothed this line">line by hand</small>

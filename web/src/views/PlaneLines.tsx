@@ -91,7 +91,6 @@ interface LineGripProps extends LineProps {
   readonly length: number;
 }
 
-/** A part of a line that moves its plane: the cross-hair follows the pointer along the normal of the plane. */
 function LineGrip({ name, plane, other, along, at, length }: LineGripProps) {
   const last = useRef<Pair | null>(null);
   const begun = useRef<Vector | null>(null);
@@ -129,7 +128,6 @@ interface EndGripProps extends LineProps {
   readonly at: Pair;
 }
 
-/** An end of a line, which turns both other planes about the cross-hair. */
 function EndGrip({ name, other, through, at }: EndGripProps) {
   const from = useRef<number | null>(null);
   const angleOf = (pixel: Pair) => Math.atan2(pixel[1] - through[1], pixel[0] - through[0]);

@@ -112,7 +112,6 @@ impl Study {
         })
     }
 
-    /// The picture of a geometry with this window, thick with a slab.
     pub(crate) fn shown(
         &self,
         geometry: Geometry,

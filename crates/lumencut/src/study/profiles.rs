@@ -16,7 +16,6 @@ use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::lines::wrong;
 
-/// What a reader made by hand on a line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ByHand {
     pub(crate) outlines: Vec<Outline>,
@@ -30,7 +29,6 @@ pub(crate) struct Profiles {
     kept: KeptProfiles<usize>,
     /// The last requested point-spread width of each line.
     widths: HashMap<usize, Option<f64>>,
-    /// What was made by hand on each line.
     by_hand: Vec<(usize, ByHand)>,
     /// The profiles with it, by cache index.
     drawn: Vec<(usize, Profile)>,
@@ -70,7 +68,6 @@ impl Profiles {
         Ok(number)
     }
 
-    /// Replaces what was made by hand on a line.
     pub(crate) fn draw(&mut self, line: usize, made: ByHand) {
         let known = self.by_hand.iter().position(|(own, _)| *own == line);
         if known.map_or(made == ByHand::default(), |known| self.by_hand[known].1 == made) {

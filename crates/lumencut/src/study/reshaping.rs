@@ -14,7 +14,6 @@ use crate::study::line_edits::MEETING;
 use crate::study::lines::{Line, wrong};
 use crate::study::open_study::Study;
 
-/// How a reader changes a line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Reshaping {
     /// Moves the point at an arc length (mm) to another place. The line near it follows smoothly.
@@ -79,13 +78,11 @@ fn place_at(points: &[DVec3], lengths: &[f64], at: f64) -> DVec3 {
 }
 
 impl Study {
-    /// The points of a line after a change that is not kept.
     pub(crate) fn reshaped(&self, line: usize, how: &Reshaping) -> Result<Vec<WorldPoint>> {
         let line = reshaped(&*self.lines.get(line)?, how)?;
         Ok(line.points.iter().map(|point| point.to_array()).collect())
     }
 
-    /// Changes the line of a vessel; the ends of vessels that meet it follow.
     pub(crate) fn reshape_vessel(&mut self, draft: &mut Draft, id: u32, how: &Reshaping) -> Result<()> {
         if let Reshaping::Bend { to, .. } = how {
             self.check_within(*to)?;

@@ -136,7 +136,6 @@ fn slab(json: &Json) -> Result<Option<Slab>> {
     slab_of(thickness, &mode).map(Some)
 }
 
-/// A slab of a thickness (mm), by the name of its mode.
 pub(super) fn slab_of(thickness: f64, mode: &str) -> Result<Slab> {
     let slab = Slab { thickness, mode: SlabMode::named("slab mode", mode)? };
     slab.check()?;

@@ -78,7 +78,6 @@ fn steady<'w>(graph: &Graph, ways: &'w [Way]) -> &'w [Way] {
     &ways[..end]
 }
 
-/// Names the last part (mm) of consecutive ways.
 fn name_above(graph: &Graph, ways: &[Way], name: &str, side: Side, length: f64, given: &mut Given) {
     let upwards: Vec<Way> = ways.iter().rev().map(|way| Graph::reversed(*way)).collect();
     given.name(graph, &upwards, name, Some(side), length);
@@ -114,7 +113,6 @@ fn falls(course: &Course) -> bool {
     course.length() >= LONG && course.reach(LONG).z <= -FALLS * LONG
 }
 
-/// How far a course leads away from the middle of the body within this length (mm).
 fn outwards(course: &Course, length: f64, side: Side) -> f64 {
     let aside = if side == Side::Left { 1.0 } else { -1.0 };
     course.reach(length).x * aside

@@ -84,7 +84,6 @@ const LEGS: [&str; 14] = [
     "Right superficial femoral artery",
 ];
 
-/// Parts of the names of vessels from the groin downwards.
 const OF_LEGS: [&str; 8] =
     ["femoral", "circumflex", "perforating", "geniculate", "sural", "tibi", "peroneal", "epigastric"];
 

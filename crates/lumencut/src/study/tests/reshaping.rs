@@ -6,7 +6,6 @@ use crate::study::lines::ListedLine;
 use crate::study::tests::opened;
 use crate::study::tracing::Watch;
 
-/// A straight line along z with points every mm, of radius 2 mm.
 fn straight(length: usize) -> Line {
     let points: Vec<DVec3> = (0..=length).map(|n| DVec3::new(1.0, 2.0, n as f64)).collect();
     Line { radius: Some(vec![2.0; points.len()]), points, ..Line::default() }
