@@ -58,8 +58,7 @@ describe('planes', () => {
   test('a turn there and back gives the standard planes, without rounding errors', () => {
     const there = turnedSlices(STANDARD, 'sagittal', 0.3);
     expect(isTurned(there)).toBe(true);
-    expect(turnedSlices(there, 'sagittal', -0.3)).toEqual(STANDARD);
-    expect(isTurned(turnedSlices(there, 'sagittal', -0.3))).toBe(false);
+    expect(turnedSlices(there, 'sagittal', -0.3)).toBe(STANDARD);
   });
 
   test('the cross-hair keeps its pixel while its plane turns, and later moves do not move the picture', () => {

@@ -30,11 +30,14 @@ export function turnedSlices(slices: Slices, about: SliceName, angle: number): S
     const axes = { right, down: unit(subtract(loose, scale(right, dot(loose, right)))) };
     return areSame(axes, STANDARD[name]) ? STANDARD[name] : axes;
   };
-  return { ...slices, axial: turn('axial'), coronal: turn('coronal'), sagittal: turn('sagittal') };
+  return settled({ ...slices, axial: turn('axial'), coronal: turn('coronal'), sagittal: turn('sagittal') });
 }
 
 export const isTurned = (slices: Slices): boolean =>
   SLICE_NAMES.some((name) => slices[name] !== STANDARD[name]);
+
+/** The standard slices themselves, if these are equal to them. */
+export const settled = (slices: Slices): Slices => (slices.slab || isTurned(slices) ? slices : STANDARD);
 
 /** Slices from an address; null if anything in them is invalid. */
 export function slicesIn(value: unknown): Slices | null {

@@ -2,7 +2,7 @@
 import { batch, signal } from '@preact/signals';
 import type { Slices } from '../core/messages';
 import { type SliceName, STANDARD } from '../core/planes';
-import { isTurned, SLAB_MODES, turnedSlices } from '../core/slices';
+import { SLAB_MODES, settled, turnedSlices } from '../core/slices';
 import { slicesChanged } from './history';
 import { hasMillimetres } from './millimetres';
 import { layout, maximised, slices, TURN_STEP } from './store';
@@ -55,13 +55,13 @@ export function turnBySteps(about: SliceName, steps: number): void {
 
 export function straighten(): void {
   const before = slices.value;
-  slices.value = before.slab ? { ...STANDARD, slab: before.slab } : STANDARD;
+  slices.value = settled({ ...STANDARD, slab: before.slab });
   slicesChanged('reset the planes', before);
 }
 
 export function chooseSlab(slab: Slices['slab']): void {
   const before = slices.value;
-  slices.value = slab || isTurned(before) ? { ...before, slab } : STANDARD;
+  slices.value = settled({ ...before, slab });
   slicesChanged('change the slab', before);
 }
 
