@@ -89,9 +89,15 @@ test('a pull in the section is measured again, and numbers, tables and session s
   const numbers = viewer.page.getByTestId('section-numbers');
   await viewer.press('m');
   await expect(numbers).toContainText('diameter');
+  await button(viewer, 'Edit contour').click();
+  await pull(viewer, viewer.pane('section').getByRole('button', { name: 'Grip 1 of the contour' }), [9, 0]);
+  await viewer.page.mouse.up();
+  await expect(numbers).toContainText('contour by hand');
+  await button(viewer, 'Edit contour').click();
   await edit(viewer).click();
   await pull(viewer, grip(viewer, 'section'), [14, 0]);
   await viewer.page.mouse.up();
+  await expect(viewer.page.getByText(/^The contours by hand of tube lay on its old line/)).toBeVisible();
   await expect(byHand(viewer)).toBeVisible();
   await expect(numbers).toContainText('line by hand');
   await viewer.rest();

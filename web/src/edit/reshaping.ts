@@ -1,7 +1,10 @@
 /** Moves and smooths the line of a vessel by hand, with a preview. */
 import { Latest } from '../core/latest';
 import type { LineId, Vector } from '../core/messages';
+import { nameOf, vesselOf } from '../state/changes';
 import { recover } from '../state/device';
+import { document_ } from '../state/history';
+import { showMessage } from '../state/message';
 import { showReshaped } from '../state/reshaping';
 import { engine } from '../worker/engine';
 import { commit } from './committing';
@@ -38,7 +41,13 @@ export function forgetLinePreview(): void {
 export async function reshapeLine(id: number): Promise<void> {
   const how = shown;
   if (how) {
-    await commit({ ...how, id });
+    const vessel = vesselOf(document_.value, id);
+    const isLost = vessel !== null && vessel.contours.length > 0;
+    const words = `The contours by hand of ${vessel && nameOf(vessel)} lay on its old line and were removed; undo returns them.`;
+    const isDone = await commit({ ...how, id });
+    if (isDone && isLost) {
+      showMessage(words);
+    }
     if (shown === how) {
       forgetLinePreview();
     }
