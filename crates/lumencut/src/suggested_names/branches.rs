@@ -170,8 +170,8 @@ fn name_iliacs(graph: &Graph, leg: Way, side: Side, given: &mut Given) {
                 Some(side),
                 INTERNAL_ILIAC,
             );
-            name_leg(graph, external.ways[0], side, given);
-            given.name(graph, &external.ways, "external iliac artery", Some(side), EXTERNAL_ILIAC);
+            let end = name_leg(graph, external.ways[0], side, given).min(EXTERNAL_ILIAC);
+            given.name(graph, &external.ways, "external iliac artery", Some(side), end);
             return;
         }
     }

@@ -22,19 +22,22 @@ pub(super) struct Given {
 impl Given {
     /// Names consecutive ways for at most `length` (mm). A part of a piece that has a name keeps it, and ends the new name there.
     pub(super) fn name(&mut self, graph: &Graph, ways: &[Way], name: &str, side: Option<Side>, length: f64) {
-        let name = offered_name(name, side);
-        let mut left = length;
+        self.name_between(graph, ways, &offered_name(name, side), [0.0, length]);
+    }
+
+    /// Gives a name to the part of consecutive ways between two lengths (mm).
+    pub(super) fn name_between(&mut self, graph: &Graph, ways: &[Way], name: &str, [from, to]: [f64; 2]) {
+        let mut at = 0.0;
         for way in ways {
-            let [from, to] = graph.pieces[way.piece].range;
-            let long = left.min(to - from);
-            let range = self.free(*way, if way.is_backward { [to - long, to] } else { [from, from + long] });
+            let [start, end] = graph.pieces[way.piece].range;
+            let [first, last] = [from.max(at) - at, to.min(at + end - start) - at];
+            let part =
+                if way.is_backward { [end - last, end - first] } else { [start + first, start + last] };
+            let range = self.free(*way, part);
             if range[0] < range[1] {
-                self.stretches.push((way.piece, NamedStretch { name: name.clone(), range }));
+                self.stretches.push((way.piece, NamedStretch { name: name.to_owned(), range }));
             }
-            left -= to - from;
-            if left <= 0.0 {
-                return;
-            }
+            at += end - start;
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::suggested_names::given::Given;
 use crate::suggested_names::graph::{Course, Graph, Way};
-use crate::vessel_names::Side;
+use crate::vessel_names::{Side, offered_name};
 
 /// A leg is followed this far (mm).
 const LEG: f64 = 1000.0;
@@ -29,6 +29,8 @@ const BEFORE_AFTER: f64 = 60.0;
 const OUTSIDE: f64 = 6.0;
 /// A vessel does not become narrower than this share where a branch leaves it.
 const NARROWS: f64 = 0.7;
+/// Found lines part up to this far (mm) behind the place where their vessels part.
+const FORK: f64 = 12.0;
 /// Lengths that a name surely holds for (mm): the ends of the thigh's arteries are not seen without bone.
 const COMMON_FEMORAL: f64 = 35.0;
 const SUPERFICIAL_FEMORAL: f64 = 180.0;
@@ -36,12 +38,13 @@ const DEEP_FEMORAL: f64 = 150.0;
 const POPLITEAL: f64 = 80.0;
 const CALF: f64 = 250.0;
 
-/// Names the arteries of a leg. Those below the knee get names only if all three are found.
-pub(super) fn name_leg(graph: &Graph, external: Way, side: Side, given: &mut Given) {
+/// Names the arteries of a leg. Those below the knee get names only if all three are found. Returns the length of the external iliac
+/// artery (mm), infinite if its end is not known.
+pub(super) fn name_leg(graph: &Graph, external: Way, side: Side, given: &mut Given) -> f64 {
     let iliac = graph.course(external, LEG);
     let femorals = |a: &Course, b: &Course| femorals(a, b, side);
     let Some((end, [deep, superficial])) = fork(graph, &iliac, FEMORAL_FORK, FEMORAL_SHARE, femorals) else {
-        return;
+        return f64::INFINITY;
     };
     name_above(graph, &iliac.ways[..=end], "common femoral artery", side, COMMON_FEMORAL, given);
     given.name(graph, steady(graph, graph.undivided(&deep)), "deep femoral artery", Some(side), DEEP_FEMORAL);
@@ -53,6 +56,7 @@ pub(super) fn name_leg(graph: &Graph, external: Way, side: Side, given: &mut Giv
         Some(side),
         SUPERFICIAL_FEMORAL,
     );
+    iliac.ways[..=end].iter().map(|way| graph.length(*way)).sum::<f64>() - FORK - COMMON_FEMORAL
 }
 
 fn name_calf(graph: &Graph, superficial: &Course, side: Side, given: &mut Given) {
@@ -80,7 +84,7 @@ fn steady<'w>(graph: &Graph, ways: &'w [Way]) -> &'w [Way] {
 
 fn name_above(graph: &Graph, ways: &[Way], name: &str, side: Side, length: f64, given: &mut Given) {
     let upwards: Vec<Way> = ways.iter().rev().map(|way| Graph::reversed(*way)).collect();
-    given.name(graph, &upwards, name, Some(side), length);
+    given.name_between(graph, &upwards, &offered_name(name, Some(side)), [FORK, FORK + length]);
 }
 
 /// The first way of a course whose end, in this range (mm), divides in exactly two long vessels that a rule tells apart.

@@ -27,7 +27,7 @@ fn truth_at(line: &str, stretch: &NamedStretch, length: &f64) -> String {
     let runs_on = [("external iliac", "common femoral", 60.0), ("superficial femoral", "popliteal", 160.0)];
     let [from, to] = stretch.range;
     for (before, after, last) in runs_on {
-        if line.contains(before) && length - from <= last && length - to < 1e-6 {
+        if line.contains(before) && length - from <= last && length - to < 12.5 {
             return line.replace(before, after);
         }
     }
