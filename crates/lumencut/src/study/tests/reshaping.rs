@@ -61,7 +61,7 @@ fn smoothing_flattens_a_zigzag_and_leaves_a_straight_line_as_it_is() {
     let line = straight(60);
     let same = reshaped(&line, &Reshaping::Smooth { sigma: 5.0 }).expect("a line");
     assert_eq!(same.by_hand, None);
-    let mut zigzag = line.clone();
+    let mut zigzag = line;
     for (n, point) in zigzag.points.iter_mut().enumerate() {
         point.x += if n % 2 == 0 { 1.0 } else { -1.0 };
     }
