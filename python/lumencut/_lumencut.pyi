@@ -773,7 +773,8 @@ def compare_scans(
     pairs: Sequence[tuple[float, float]],
     vessel: str,
     scans: tuple[str, str],
-    doubts: Sequence[str],
+    stated: tuple[tuple[str, str, str], tuple[str, str, str]],
+    other_patient: bool,
 ) -> Comparison: ...
 def comparison_report(vessels: Sequence[Comparison]) -> str: ...
 def suggest_names(vessels: list[_Arrays], volume: Any = None) -> list[_Suggested]: ...

@@ -53,6 +53,7 @@ pub mod report;
 mod samples;
 pub mod scale_bar;
 pub mod scan_details;
+pub mod scan_identity;
 pub mod spiral_lengths;
 pub mod straightened_sides;
 pub mod study;

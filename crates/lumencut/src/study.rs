@@ -49,6 +49,7 @@ mod straightened;
 mod straightening;
 mod trace_report;
 pub mod tracing;
+mod two_scans;
 pub mod view;
 pub mod voxels;
 mod whole_vessel;

@@ -158,6 +158,15 @@ export function showLayout(layout: store.Layout): void {
   });
 }
 
+/** Half of a window that is narrower than this has room for one view (CSS pixels). */
+const NARROW = 600;
+
+export function showOneIfNarrow(width: number): void {
+  if (width < NARROW) {
+    showLayout('one');
+  }
+}
+
 export function turnSlowly(angle: number): void {
   changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
 }

@@ -38,6 +38,7 @@ use crate::study::settings::{LookRow, SettingRow, looks, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
+use crate::study::two_scans::{ComparedScans, MotionMessage, ScansMessage};
 use crate::study::view::{CameraMessage, ViewMessage, views_between};
 use crate::study::whole_vessel::WholeVessel;
 
@@ -250,6 +251,16 @@ at_once {
     /// The views of a flight between two cameras, at equal time steps, including both cameras.
     flight { from: CameraMessage, to: CameraMessage, views: usize } -> Vec<CameraMessage> =
         views_between(&from, &to, views)?;
+
+    /// The motion from one scan to another, from their corners and from pairs of points that belong together.
+    motion_between { corners: [Vec<Vector>; 2], pairs: Vec<[Vector; 2]> } -> MotionMessage =
+        MotionMessage::between(&corners, &pairs)?;
+
+    /// A vessel in two scans, compared, with charts of this size (plot pixels).
+    compare_scans { scans: ScansMessage, size: [f64; 2] } -> ComparedScans = scans.answer(size)?;
+
+    /// The comparison of a vessel in two scans as a file, as of `lumencut compare-scans`.
+    comparison_file { scans: ScansMessage, kind: String } -> String = scans.file(&kind)?;
 
     /// The table of settings.
     settings_table(_nothing: ()) -> Vec<SettingRow> = rows();

@@ -81,6 +81,19 @@ export type Compared = {
   readonly method: StenosisMethod;
 };
 
+/** The lumen of a vessel in two scans, compared. */
+export type ComparedScans = {
+  /** Doubts, changes, the typical difference, and how the vessels were matched. */
+  readonly sentences: ReadonlyArray<string>;
+  /** Arc lengths on the earlier and on the later vessel (mm) that belong together; null beyond its ends. */
+  readonly places: ReadonlyArray<readonly [number, number | null]>;
+  /** The motion from the earlier scan to the later one. */
+  readonly motion: Motion;
+  /** Diameters and differences as SVG, and their axis of arc lengths on the earlier vessel (plot pixels). */
+  readonly chart: string;
+  readonly axis: Axis;
+};
+
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -436,6 +449,13 @@ export type MeasuredVessel = {
   readonly name: string;
   readonly line: number;
   readonly marks: Marks;
+};
+
+/** A rigid motion (mm, LPS): a point times `rotation`, plus `shift`. */
+export type Motion = {
+  /** The rows of the matrix. */
+  readonly rotation: readonly [Vector, Vector, Vector];
+  readonly shift: Vector;
 };
 
 export type NamedLine = {
@@ -854,6 +874,32 @@ export type ScaleBar = {
   readonly words: string;
   /** Length in pixels; may be fractional. */
   readonly pixels: number;
+};
+
+/** What the header of a scan states about patient and modality; empty where it states nothing. */
+export type ScanIdentity = {
+  /** PatientID without padding. */
+  readonly patient: string;
+  /** IssuerOfPatientID without padding. */
+  readonly issuer: string;
+  /** Modality. */
+  readonly modality: string;
+};
+
+/** A vessel measured in an earlier and a later scan. */
+export type ScansToCompare = {
+  /** The records of both profiles, as `profile_record` answers them. */
+  readonly records: readonly [string, string];
+  /** Places that belong together (arc lengths on both vessels, mm). */
+  readonly pairs: ReadonlyArray<Pair>;
+  readonly vessel: string;
+  /** What the scans are called. */
+  readonly scans: readonly [string, string];
+  readonly identities: readonly [ScanIdentity, ScanIdentity];
+  /** Whether scans of two patients are compared. */
+  readonly other_patient: boolean;
+  /** Pictures of the earlier and the later scan for the report (PNG in base64); may be empty. */
+  readonly pictures: ReadonlyArray<string>;
 };
 
 export type Sentence = {
@@ -1450,6 +1496,30 @@ export type Questions = {
     };
     readonly answer: ReadonlyArray<Camera>;
   };
+  /** The motion from one scan to another, from their corners and from pairs of points that belong together. */
+  readonly motion_between: {
+    readonly message: {
+      readonly corners: readonly [ReadonlyArray<Vector>, ReadonlyArray<Vector>];
+      readonly pairs: ReadonlyArray<readonly [Vector, Vector]>;
+    };
+    readonly answer: Motion;
+  };
+  /** A vessel in two scans, compared, with charts of this size (plot pixels). */
+  readonly compare_scans: {
+    readonly message: {
+      readonly scans: ScansToCompare;
+      readonly size: Pair;
+    };
+    readonly answer: ComparedScans;
+  };
+  /** The comparison of a vessel in two scans as a file, as of `lumencut compare-scans`. */
+  readonly comparison_file: {
+    readonly message: {
+      readonly scans: ScansToCompare;
+      readonly kind: string;
+    };
+    readonly answer: string;
+  };
   /** The table of settings. */
   readonly settings_table: {
     readonly message: null;
@@ -1527,6 +1597,9 @@ export const TURNS = {
   straightened_notes: { when: 'at once', words: null },
   kind_of_file: { when: 'at once', words: null },
   flight: { when: 'at once', words: null },
+  motion_between: { when: 'at once', words: null },
+  compare_scans: { when: 'at once', words: null },
+  comparison_file: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
   regions: { when: 'at once', words: null },
