@@ -42,6 +42,7 @@ mod reformations;
 mod reforming;
 mod regions;
 mod report_messages;
+mod reshaping;
 mod session_files;
 mod settings;
 mod straightened;

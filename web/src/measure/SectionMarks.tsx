@@ -1,7 +1,7 @@
 /** Draws contour, diameters and measurements of a section over its picture. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { Latest } from '../core/latest';
-import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
+import type { LineId, MeasuredSection, Pair, Plane, Profile, Vector } from '../core/messages';
 import { pixelOn } from '../core/planes';
 import { pulledContour } from '../state/contour';
 import { pickedPlace } from '../state/store';
@@ -11,10 +11,24 @@ import { currentProfile, currentVessel } from './current';
 import { nearestSection, sectionNumbers } from './sections';
 import { area, doubtWords, meanings, mm, spread, withKnownUnits } from './words';
 
-/** Contour colours, as in the pictures of `lumencut measure`. */
-export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a', outer: '#ff5ad0' } as const;
+/** Contour colours, as in the pictures of `lumencut measure`; only the page shows contours by hand. */
+export const CONTOUR = {
+  counts: '#00e5ff',
+  leftOut: '#ff9f1a',
+  byHand: '#b4ff39',
+  outer: '#ff5ad0',
+} as const;
+export const BY_HAND_DASHES = [9, 4] as const;
 /** The flag of contours drawn by hand. */
 const BY_HAND = 'by hand';
+
+export const isByHand = (profile: Profile, number: number): boolean =>
+  profile.flags[number]?.includes(BY_HAND) ?? false;
+
+export const contourColor = (profile: Profile, number: number): string => {
+  const automatic = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
+  return isByHand(profile, number) ? CONTOUR.byHand : automatic;
+};
 const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
 
 interface Found {
@@ -43,10 +57,13 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
   }
   const numbers = sectionNumbers(profile, at);
   // The section may have moved while its contour was requested.
-  const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
-  const outer = profile.outer[nearestSection(profile, at)];
+  const number = nearestSection(profile, at);
+  const isShown = found?.line === vessel?.line && found?.section.number === number;
+  const outer = profile.outer[number];
   const section = isShown ? found?.section : null;
   const pulled = pulledContour.value;
+  const isDrawn = pulled !== null || isByHand(profile, number);
+  const flags = numbers.flags.filter((flag) => flag !== BY_HAND);
   const contour = pulled?.points ?? section?.contour ?? [];
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
   return (
@@ -55,7 +72,8 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <svg class="section-marks" width={plane.size[0]} height={plane.size[1]} aria-hidden="true">
           <path
             d={`M${pixels(contour).join('L')}Z`}
-            stroke={numbers.counts ? CONTOUR.counts : CONTOUR.leftOut}
+            stroke={pulled ? CONTOUR.byHand : contourColor(profile, number)}
+            {...(isDrawn && { 'stroke-dasharray': BY_HAND_DASHES.join(' ') })}
           />
           {section.outer_contour.length > 0 && (
             <path
@@ -79,12 +97,13 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <div style={{ color: AXES.longest }}>{`longest ${mm((pulled ?? numbers).longest)}`}</div>
         <div>{`area ${area((pulled ?? numbers).area)}`}</div>
         {outer && <div style={{ color: CONTOUR.outer }}>{withKnownUnits(outer)}</div>}
+        {isDrawn && <div style={{ color: CONTOUR.byHand }}>contour by hand</div>}
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
-        {numbers.flags.length > 0 && (
-          <div title={meanings(profile, numbers.flags)}>{doubtWords(numbers).join(', ')}</div>
+        {flags.length > 0 && (
+          <div title={meanings(profile, flags)}>{doubtWords({ ...numbers, flags }).join(', ')}</div>
         )}
       </div>
-      <ContourGrips plane={plane} at={numbers.at} isByHand={numbers.flags.includes(BY_HAND)} />
+      <ContourGrips plane={plane} at={numbers.at} isByHand={isByHand(profile, number)} />
     </>
   );
 }

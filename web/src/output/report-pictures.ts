@@ -18,7 +18,7 @@ import type {
 import { pixelOn } from '../core/planes';
 import { lyingPicture } from '../measure/layout';
 import { colorOfPlace } from '../measure/PlaceHandles';
-import { CONTOUR } from '../measure/SectionMarks';
+import { BY_HAND_DASHES, CONTOUR, contourColor, isByHand } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -112,7 +112,8 @@ export async function sectionPair(
   }
   context.closePath();
   context.lineWidth = 2.5;
-  context.strokeStyle = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
+  context.strokeStyle = contourColor(profile, number);
+  context.setLineDash(isByHand(profile, number) ? [...BY_HAND_DASHES] : []);
   context.stroke();
   if (section.outer_contour.length > 0) {
     context.beginPath();
@@ -123,7 +124,10 @@ export async function sectionPair(
     context.setLineDash([8, 6]);
     context.strokeStyle = CONTOUR.outer;
     context.stroke();
-    context.setLineDash([]);
+  }
+  context.setLineDash([]);
+  if (isByHand(profile, number)) {
+    write(context, 'contour by hand', [6, 30]);
   }
   const { bar, letters } = await engine.ask('labels', { ...plane, width: SIDE });
   const { spacing: hasSpacing, orientation } = store.states.value;

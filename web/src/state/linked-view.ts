@@ -72,8 +72,9 @@ export function takeSeen({ cameras, windows, looks, 'cross-hairs': place }: Seen
     if (looks && store.camera.value) {
       const { isInverted, ...look } = looks;
       store.isInverted.value = isInverted;
-      // The layout is free, because tracing in one scan changes it.
-      showView({ ...look, camera: store.camera.value, window: null, layout: '', crossHair: null });
+      // Layout and planes of the slices are free: tracing in one scan changes the layout.
+      const free = { window: null, layout: '', crossHair: null, slices: store.slices.value };
+      showView({ ...look, ...free, camera: store.camera.value });
     }
   });
   if (place) {

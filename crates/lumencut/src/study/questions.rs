@@ -32,6 +32,7 @@ use crate::study::planes::Plane;
 use crate::study::reformations::{ReformationMessage, ReformedPicture};
 use crate::study::regions::{RegionRow, regions};
 use crate::study::report_messages::{Findings, ReportMessage};
+use crate::study::reshaping::Reshaping;
 use crate::study::session_files::SessionContent;
 use crate::study::settings::{LookRow, SettingRow, looks, rows};
 use crate::study::straightened::CprMessage;
@@ -138,6 +139,14 @@ of_the_study {
 
     /// The points of a line, with their radii and other data.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
+
+    /// The points of a line after a move by hand from an arc length (mm) to a place. Nothing is kept.
+    [Turn::First] bent { line: usize, at: f64, to: Vector } -> Vec<Vector> =
+        study.reshaped(line, &Reshaping::Bend { at, to })?;
+
+    /// The points of a line after smoothing by a Gaussian (standard deviation in mm). Nothing is kept.
+    [Turn::First] smoothed { line: usize, sigma: f64 } -> Vec<Vector> =
+        study.reshaped(line, &Reshaping::Smooth { sigma })?;
 
     /// Adds a line, such as a line of a saved session; returns the number that it gets.
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;

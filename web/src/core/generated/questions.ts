@@ -212,6 +212,15 @@ export type Edit = {
   readonly id: number;
   readonly at: number;
 } | {
+  readonly "kind": "bend";
+  readonly id: number;
+  readonly at: number;
+  readonly to: Vector;
+} | {
+  readonly "kind": "smooth";
+  readonly id: number;
+  readonly sigma: number;
+} | {
   readonly "kind": "join";
   readonly id: number;
   readonly other: number;
@@ -338,6 +347,8 @@ export type LineContent = {
   readonly confidence: ReadonlyArray<number> | null;
   /** Whether each point lies on a bridged stretch without lumen, if known. */
   readonly bridged: ReadonlyArray<boolean> | null;
+  /** Whether the reader moved each point by hand; null if none was moved. */
+  readonly by_hand: ReadonlyArray<boolean> | null;
 };
 
 export type LineFacts = {
@@ -536,6 +547,8 @@ export type Plane = {
   readonly down: Vector;
   readonly size: Pair;
   readonly pixel_spacing: number;
+  /** Thickness (mm) and mode of a slab centred on the plane; without one, the picture shows the plane itself. */
+  readonly slab?: readonly [number, string] | null;
 };
 
 export type PointedAt = {
@@ -852,6 +865,8 @@ export type SavedView = {
   readonly cross_hair: Vector | null;
   /** The vessel that is shown straightened, and the place whose cross-section is shown. */
   readonly picked: SavedPlace | null;
+  /** The planes of the slices, if they were turned or are thick; exist since version 2. */
+  readonly slices?: Slices;
 };
 
 /** A scale bar of round length. */
@@ -922,6 +937,26 @@ export type SettingRow = {
 export type Side = {
   readonly direction: Vector;
   readonly up: Vector;
+};
+
+/** Unit vectors of a slice, to the right and down. */
+export type SliceAxes = {
+  /** To the right in the slice. */
+  readonly right: Vector;
+  /** Down in the slice. */
+  readonly down: Vector;
+};
+
+/** The planes of the slices; all go through the cross-hair. */
+export type Slices = {
+  /** The plane that is axial at first. */
+  readonly axial: SliceAxes;
+  /** The plane that is coronal at first. */
+  readonly coronal: SliceAxes;
+  /** The plane that is sagittal at first. */
+  readonly sagittal: SliceAxes;
+  /** Thickness (mm) and mode of a slab centred on each plane: `max`, `mean` or `min`. */
+  readonly slab: readonly [number, string] | null;
 };
 
 /** A place on a vessel (arc length, mm) and its diameter (mm). */
@@ -1263,6 +1298,23 @@ export type Questions = {
     };
     readonly answer: LineContent;
   };
+  /** The points of a line after a move by hand from an arc length (mm) to a place. Nothing is kept. */
+  readonly bent: {
+    readonly message: {
+      readonly line: number;
+      readonly at: number;
+      readonly to: Vector;
+    };
+    readonly answer: ReadonlyArray<Vector>;
+  };
+  /** The points of a line after smoothing by a Gaussian (standard deviation in mm). Nothing is kept. */
+  readonly smoothed: {
+    readonly message: {
+      readonly line: number;
+      readonly sigma: number;
+    };
+    readonly answer: ReadonlyArray<Vector>;
+  };
   /** Adds a line, such as a line of a saved session; returns the number that it gets. */
   readonly add_line: {
     readonly message: LineContent;
@@ -1521,6 +1573,8 @@ export const TURNS = {
   path: { when: 'first', words: null },
   whole_vessel: { when: 'first', words: null },
   line: { when: 'first', words: null },
+  bent: { when: 'first', words: null },
+  smoothed: { when: 'first', words: null },
   add_line: { when: 'first', words: null },
   show: { when: 'first', words: null },
   write_lines: { when: 'first', words: null },
