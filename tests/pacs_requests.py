@@ -15,7 +15,7 @@ import lumencut
 from dicom_scenes import LINE, scan, series
 from lumencut import Camera, Renderer, Vessel, VesselTree, _lumencut
 from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
-from lumencut.pictures.frame import picture_as_png
+from lumencut.pictures.picture_file import picture_as_png
 from lumencut.reports.measure_report import report
 
 NAME = "left renal artery"

@@ -6,7 +6,7 @@ within rounding: `Surface.unsure_depth` and `Surface.unsure_vessel` mark these p
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -64,6 +64,15 @@ def cost_of(found, settings):
     return found.z + settings.cost_weight * np.maximum(found.d - found.r, 0)
 
 
+def as_counted(found, settings):
+    """Return the candidates with the distance that the cost counts."""
+    if settings.distance_rule == "local":
+        return found
+    beside = (found.kind == 0) & (found.inside < 0)
+    whole = np.where(beside, np.inf, found.d).min(axis=1, keepdims=True)
+    return replace(found, d=np.broadcast_to(whole, found.d.shape))
+
+
 def key(found, settings, slack=0.0):
     """Return the order of pieces: with `lumen_first` lumen, wall, surroundings; otherwise only the cost."""
     beyond, cost = found.d - found.r, cost_of(found, settings)
@@ -80,21 +89,24 @@ def winners(vessels, q, settings):
     names = ("z", "r", "s", "d", "z_error", "s_error", "slope", "kind")
     for vessel, pieces in enumerate(vessels):
         found = candidates(pieces, q)
-        cost = np.where(found.inside >= 0, key(found, settings), np.inf)
+        counted = as_counted(found, settings)
+        cost = np.where(found.inside >= 0, key(counted, settings), np.inf)
         mine = pixel, cost.argmin(axis=1)
         wins = cost[mine] < best
         best = np.where(wins, cost[mine], best)
         kept["vessel"][wins] = vessel
+        kept.setdefault("cost", np.zeros(count))[wins] = cost_of(counted, settings)[mine][wins]
         for name in names:
             value = getattr(found, name)[mine]
             kept.setdefault(name, np.zeros(value.shape))[wins] = value[wins]
-        certain = np.where(found.inside >= BORDER, key(found, settings, -BORDER), np.inf)
+        certain = np.where(found.inside >= BORDER, key(counted, settings, -BORDER), np.inf)
         sure = np.minimum(sure, certain.min(axis=1))
     low, high = np.full(count, np.inf), np.full(count, -np.inf)
     others, elsewhere = np.zeros(count, bool), np.zeros(count, bool)
     for vessel, pieces in enumerate(vessels):
         found = candidates(pieces, q)
-        rival = (found.inside >= -BORDER) & (key(found, settings, BORDER) <= sure[:, None] + TIE)
+        keys = key(as_counted(found, settings), settings, BORDER)
+        rival = (found.inside >= -BORDER) & (keys <= sure[:, None] + TIE)
         low = np.minimum(low, np.where(rival, found.z, np.inf).min(axis=1))
         high = np.maximum(high, np.where(rival, found.z, -np.inf).max(axis=1))
         others |= rival.any(axis=1) & (kept["vessel"] != vessel)
@@ -103,7 +115,7 @@ def winners(vessels, q, settings):
     return Winners(
         kept["z"], kept["z_error"], kept["vessel"], kept["r"], kept["d"], kept["s"], kept["s_error"],
         kept["slope"], high - low, others, elsewhere,
-        kept["z"] + settings.cost_weight * np.maximum(kept["d"] - kept["r"], 0), kept["kind"],
+        kept["cost"], kept["kind"],
     )  # fmt: skip
 
 
@@ -117,7 +129,7 @@ def own(vessels, q, settings, decided):
         found = candidates(vessels[vessel], q[here])
         apart = np.abs(found.s - decided.s[here, None])
         covered = np.where(found.inside >= 0, apart, np.inf)
-        cost = cost_of(found, settings)
+        cost = cost_of(as_counted(found, settings), settings)
         nearest = covered <= covered.min(axis=1, keepdims=True)
         mine = np.arange(len(here)), np.where(nearest, cost, np.inf).argmin(axis=1)
         z[here], slack[here], s[here], slope[here] = (

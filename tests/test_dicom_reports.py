@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from functools import cache
@@ -14,9 +15,11 @@ import lumencut
 from dicom_judges import faults
 from dicom_scenes import LINE, scan, series, write_series
 from lumencut import (
+    Flag,
     FormatError,
     MeasuringError,
     MissingPackageError,
+    Profile,
     SettingsError,
     Vessel,
     VesselTree,
@@ -148,6 +151,22 @@ def test_the_tree_of_a_stenosis(tmp_path):
     words = [one.TextValue for one in child(percent, "Comment")]
     assert len(words) == 1 + len(stenosis.doubts)
     assert "NASCET" in words[0]
+
+
+def test_what_a_reader_made_by_hand_is_called_so(tmp_path):
+    record = json.loads(_lumencut.profile_record(profile()._core))
+    at, elsewhere = profile()._core.nearest(AT), profile()._core.nearest(REFERENCE + 6)
+    record["flags"][at] |= int(Flag.BY_HAND)
+    record["flags"][elsewhere] |= int(Flag.LINE_BY_HAND)
+    drawn = Profile.__new__(Profile)
+    drawn.__setstate__({**profile().__getstate__(), "record": json.dumps(record)})
+    drawn.save(tmp_path / "a.dcm", stenoses=[drawn.stenosis(AT, REFERENCE)])
+    assert faults(tmp_path / "a.dcm") == faults(tmp_path / "a.dcm", "Warning") == []
+    narrow, normal, _, along = groups(tmp_path / "a.dcm")
+    said = [[one.TextValue for one in child(group, "Comment")] for group in (narrow, normal, along)]
+    assert said == [["Contour by hand: the reader drew it"], [], ["Centerline by hand: the reader moved it"]]
+    narrow, _, _, along = groups(save(tmp_path, stenoses=[graded()]))
+    assert child(narrow, "Comment") == child(along, "Comment") == []
 
 
 def test_outlines_and_centerlines_are_in_the_frame_of_the_scan(tmp_path):

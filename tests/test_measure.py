@@ -63,7 +63,7 @@ def test_a_stent_is_metal():
     # A strut blooms, so no place within a stent is suggested, and the reason is stated.
     assert profile.narrowest() is None
     (reason,) = profile.not_suggested()
-    assert "no section is reliable (metal)" in reason
+    assert "sections that count has a doubt (metal)" in reason
     assert "metal" in reason
 
 

@@ -176,6 +176,26 @@ def test_measure_grades_what_was_marked_in_the_viewer(tmp_path):
     assert json.loads((tmp_path / "other.json").read_text())["vessels"][0]["stenosis"] is None
 
 
+def test_measure_says_where_a_line_was_moved_in_the_viewer(tmp_path):
+    scene = phantom.stenosis(60)
+    volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
+    session = write_session(tmp_path / "saved.mrk.json", scene.tree, marks=MARKS, fwhm=0.9, format=2)
+    content = json.loads(session.read_text())
+    places = np.linalg.norm(scene.tree[0].points - scene.tree[0].points[0], axis=1)
+    moved = [bool(10 <= place <= 20) for place in places]
+    content["LumencutSession"]["vessels"][0]["by_hand"] = moved
+    session.write_text(json.dumps(content))
+    result = run("measure", volume, session, "-o", tmp_path / "out.json", "--step", 2)
+    assert result.exit_code == 0, result.output
+    vessel = json.loads((tmp_path / "out.json").read_text())["vessels"][0]
+    flagged = ["line by hand" in flags for flags in vessel["sections"]["flags"]]
+    assert flagged == [10 <= place <= 20 for place in vessel["sections"]["arc_length_mm"]]
+    content["LumencutSession"]["vessels"][0]["by_hand"] = moved[:-1]
+    session.write_text(json.dumps(content))
+    with pytest.raises(FormatError, match="points by hand of vessel 0"):
+        read_session(session)
+
+
 def test_measure_reckons_with_the_point_spread_that_was_given_in_the_viewer(tmp_path):
     scene = phantom.stenosis(60)
     volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")

@@ -102,8 +102,8 @@ def test_ecst_has_no_group_and_no_references(graded):
             "ECST, the original still empty",
             ECST,
         ),
-        ("no reference yet", "Mark a reference: where the vessel is normal."),
-        ("a reference and no place", "Mark the place of the stenosis."),
+        ("no reference yet", "mark a reference where the vessel is normal."),
+        ("a reference and no place", "mark the place of the stenosis."),
         (
             "a reference beyond the vessel",
             "reference of the stenosis: found 500 mm; expected an arc length",

@@ -24,8 +24,11 @@ def truth_along(made, vessel, start, end):
 
 def is_of(truth, name):
     """Whether the name of a phantom's vessel, which may have a number, is the suggested one."""
-    words = truth.rstrip("0123456789 ").replace("coeliac", "celiac")
-    return words == name.lower() or {words, name.lower()} == {"aortic arch", "aorta"}
+    words = truth.rstrip("0123456789 ").replace("coeliac", "celiac").replace("peroneal", "fibular")
+    # Lines of phantoms run on where arteries only change their names.
+    runs_on = (("external iliac", "common femoral"), ("superficial femoral", "popliteal"))
+    same = {words, *(words.replace(*pair) for pair in runs_on)}
+    return name.lower() in same or {words, name.lower()} == {"aortic arch", "aorta"}
 
 
 def check_names(make):

@@ -56,7 +56,10 @@ def test_every_answer_has_the_headers_that_protect(client):
 
 def assert_protected(headers):
     rules = dict(rule.split(" ", 1) for rule in headers["content-security-policy"].split("; "))
-    assert rules["default-src"] == rules["base-uri"] == rules["frame-ancestors"] == "'none'"
+    assert rules["default-src"] == rules["base-uri"] == "'none'"
+    # The page shows another scan in a frame of its own server; no other page may embed it.
+    assert rules["frame-src"] == rules["frame-ancestors"] == "'self'"
+    assert headers["x-frame-options"] == "SAMEORIGIN"
     assert rules["script-src"] == "'self' 'wasm-unsafe-eval'"
     assert all(
         "*" not in rule and "unsafe-inline" not in rule and "http" not in rule for rule in rules.values()

@@ -106,6 +106,7 @@ def test_voxels_arrive_to_the_byte(page, name):
         "states_orientation": True,
         "filled_slices": [],
         "has_study": False,
+        "identity": {"patient": "", "issuer": "", "modality": ""},
         "scan": dict.fromkeys(SCAN),
         "notes": ["one", "two — three"],
     }

@@ -76,7 +76,10 @@ def surface_settings() -> Iterator[tuple[str, Values]]:
             chosen: Values = {"level_choice": choice, "lumen_first": first}
             yield f"level_choice {choice}, lumen_first {first}", chosen
             yield f"level_choice {choice}, lumen_first {first}, unfiltered", {**chosen, "depth_filter": False}
+    curve: Values = {"distance_rule": "whole curve", "lumen_first": False}
+    yield "distance_rule whole curve, lumen_first False", curve
     yield "paper", PAPER
+    yield "paper, distance_rule whole curve", {**PAPER, "distance_rule": "whole curve"}
     yield from ((f"paper, {what}", {**PAPER, **values}) for what, values in each("levels", (0, 3, 15)))
     yield "paper, unfiltered", {**PAPER, "depth_filter": False}
     yield "paper, lumen_first", {**PAPER, "lumen_first": True}

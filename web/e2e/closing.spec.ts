@@ -68,6 +68,9 @@ test('a file that cannot be opened asks nothing; questions come one at a time, a
   await tube.pane().click();
   await tube.press('Escape');
   await expect(question).toContainText('What is tubes.nrrd?');
+  // Its grid is not that of the scan, so the answer that works has the focus.
+  await expect(question.getByRole('button', { name: 'Open as a new scan' })).toBeFocused();
+  await expect(question.getByRole('button', { name: 'Use as a mask of vessels' })).toBeDisabled();
   await tube.press('Escape');
   await expect(question).toHaveCount(0);
   await expect(nameOf(tube, 0)).toHaveValue('narrowed');

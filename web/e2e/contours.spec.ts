@@ -15,6 +15,12 @@ const numbers = () => tube.viewer.page.getByTestId('section-numbers');
 const grip = (n: number): Locator =>
   tube.viewer.pane('section').getByRole('button', { name: `Grip ${n} of the contour` });
 const edit = () => tube.button('Edit contour');
+const drawing = () =>
+  tube.viewer
+    .pane('section')
+    .locator('.section-marks path')
+    .first()
+    .evaluate((path) => [path.getAttribute('stroke'), path.getAttribute('stroke-dasharray')]);
 const undoTitle = () => tube.viewer.page.getByRole('button', { name: 'Undo' });
 
 async function area(): Promise<number> {
@@ -43,10 +49,14 @@ test('a drag at a grip pulls the contour, the numbers follow, and undo brings th
   const before = await area();
   await expect(tube.stenosis()).toContainText('%');
   const percent = await tube.stenosis().textContent();
+  const plain = await drawing();
+  expect(plain).toEqual(['#00e5ff', null]);
   await edit().click();
   await expect(grip(16)).toBeVisible();
   await tube.dragBy(grip(1), [24, 0]);
   await expect(numbers()).toContainText('by hand');
+  await expect(numbers()).toContainText('contour by hand');
+  await expect.poll(drawing).toEqual(['#b4ff39', '9 4']);
   await tube.viewer.screenshot('contour-by-hand');
   const after = await area();
   expect(after).toBeGreaterThan(before * 1.05);
@@ -55,6 +65,7 @@ test('a drag at a grip pulls the contour, the numbers follow, and undo brings th
   await tube.viewer.press('Control+z');
   await expect(numbers()).not.toContainText('by hand');
   expect(await area()).toBe(before);
+  await expect.poll(drawing).toEqual(plain);
   await expect(tube.stenosis()).toHaveText(percent ?? '');
   await tube.viewer.press('Control+Shift+Z');
   await expect(numbers()).toContainText('by hand');

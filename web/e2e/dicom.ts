@@ -21,6 +21,7 @@ function element(tag: number, vr: string, value: string | number): Buffer {
 interface Of {
   readonly uid: string;
   readonly number: string;
+  readonly patient?: string;
 }
 const ONE: Of = { uid: '1.2.3', number: '7' };
 
@@ -57,6 +58,7 @@ function slice(height: number, [phase, phases]: readonly [number, number], of: O
     element(0x00080016, 'UI', CT),
     element(0x00080018, 'UI', uid),
     element(0x00080060, 'CS', 'CT'),
+    ...(of.patient ? [element(0x00100020, 'LO', of.patient)] : []),
     element(0x00180050, 'DS', '2'),
     ...trigger,
     element(0x0020000e, 'UI', of.uid),

@@ -48,7 +48,7 @@ test('findings of all vessels are listed by a key, copied, and saved as one repo
   await expect(findings(viewer)).toHaveCount(2);
   expect((await viewer.camera()).direction).toEqual(before.direction);
   const [first, second] = [findings(viewer).nth(0), findings(viewer).nth(1)];
-  await expect(first).toContainText('No percentage: Mark a reference: where the vessel is normal.');
+  await expect(first).toContainText('No percentage: mark a reference where the vessel is normal.');
   for (const one of [first, second]) {
     const picture = one.getByRole('img');
     await expect(picture).toBeVisible();
@@ -59,7 +59,7 @@ test('findings of all vessels are listed by a key, copied, and saved as one repo
   await first.getByRole('button', { name: 'Copy sentence' }).click();
   await expect(viewer.page.getByTestId('told')).toHaveText('The sentence is copied');
   const copied = await viewer.page.evaluate(() => navigator.clipboard.readText());
-  expect(copied).toMatch(/: No percentage: Mark a reference/);
+  expect(copied).toMatch(/: .* mm at .* mm\. No percentage: mark a reference/);
   await second.getByRole('button', { name: 'Copy picture' }).click();
   await expect(viewer.page.getByTestId('told')).toHaveText('The picture is copied');
   const types = await viewer.page.evaluate(async () => (await navigator.clipboard.read())[0]?.types);

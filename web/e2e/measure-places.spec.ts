@@ -199,7 +199,7 @@ test('Enter confirms a suggestion, Delete removes a mark', async () => {
   await tube.handle('narrowest place', 'in the CPR').focus();
   await tube.viewer.press('Enter');
   await expect(tube.row('place-0')).toContainText('narrowest place (confirmed suggestion)');
-  await expect(tube.stenosis()).toContainText('Mark a reference');
+  await expect(tube.stenosis()).toContainText('mark a reference');
   await tube.handle('narrowest place', 'in the CPR').focus();
   await tube.viewer.press('Delete');
   await expect(tube.row('place-0')).toContainText('(suggestion)');

@@ -229,3 +229,26 @@ test('a segmentation is used as a vessel mask, and contours are rejected with an
   expect(viewer.faults).toEqual([expect.stringContaining('422')]);
   await viewer.close();
 });
+
+test('a scan of the server is compared with files of the same patient in a frame of its page', async ({
+  browser,
+}) => {
+  const place = await served('scan');
+  const viewer = await opened(browser, place);
+  await viewer.rest();
+  await viewer.field('Layout').selectOption('Two scans …');
+  const other = viewer.page.frameLocator('iframe[title="Other scan"]');
+  // The frame begins without the scan of the server.
+  await expect(other.getByRole('heading', { name: 'Other scan' })).toBeVisible();
+  await other
+    .locator('main input[type=file]')
+    .first()
+    .setInputFiles([...place.files, place.lines]);
+  await button(viewer, 'Pair these places').click();
+  await button(viewer, 'Compare the vessel').click();
+  const sentences = viewer.page.getByTestId('comparison-sentences');
+  await expect(sentences).toContainText('no change beyond 2 standard deviations');
+  await expect(sentences).not.toContainText('patient');
+  viewer.expectNoFault();
+  await viewer.close();
+});

@@ -51,8 +51,10 @@ test('a report of a marked place without a percentage says so, and lists suggest
     tube.viewer.page.waitForEvent('download'),
     tube.button('Save report').click(),
   ]);
-  const words = 'No percentage: Mark a reference: where the vessel is normal.';
-  await expect(tube.viewer.page.getByTestId('told')).toContainText(`.html. ${words}`);
+  const words = 'No percentage: mark a reference where the vessel is normal.';
+  await expect(tube.viewer.page.getByTestId('told')).toHaveText(
+    /\.html\. 3\.98 ± 0\.02 mm at 32\.5 mm\. No percentage: mark a reference where the vessel is normal\.$/,
+  );
   const html = readFileSync(await download.path(), 'utf-8');
   expect(html).toContain(words);
   expect(html).toMatch(/Saved on \d{4}-\d\d-\d\d \d\d:\d\d/);

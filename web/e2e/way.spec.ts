@@ -48,10 +48,12 @@ test('by mouse, from a scan file to the report', async ({ browser }) => {
   await viewer.screenshot('way-3-traced');
   await button(viewer, 'Done').click();
   await button(viewer, 'Measure').click();
-  // In a stent no safe reference may be suggested; then the page says so, and the user marks one.
-  await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click();
-  const told = /No percentage: Mark a reference: where the vessel is normal\./;
-  await expect(stenosis(viewer)).toHaveText(new RegExp(`${GRADED.source}|${told.source}`));
+  // Within a stent no place is suggested; the page says so, and the user marks one.
+  await expect(page.getByTestId('not-suggested')).toContainText('sections that count has a doubt (metal');
+  await page.getByRole('button', { name: 'Narrowest here' }).click();
+  await expect(stenosis(viewer)).toHaveText(
+    /^[\d.]+ ± [\d.]+ mm at [\d.]+ mm\. No percentage: mark a reference where the vessel is normal\./,
+  );
   await viewer.rest();
   await viewer.screenshot('way-4-measured');
   await menu(viewer).click();

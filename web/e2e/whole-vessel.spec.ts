@@ -83,17 +83,20 @@ test('by keys only: Enter twice at the cross-hair, and the key w', async ({ brow
   await viewer.close();
 });
 
-test('if a vessel is already traced there, or there is none, the page says so and drops the point', async ({
+test('a vessel that is already traced there is picked; if there is none, the page drops the point', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   await viewer.doubleClick(await at(viewer, TRUNK), 'coronal');
   await expect(rows(viewer)).toHaveCount(1);
+  await viewer.doubleClick(await at(viewer, RIGHT), 'coronal');
+  await expect(rows(viewer).nth(1).getByRole('radio')).toBeChecked();
   await viewer.click(await at(viewer, [0.005, 0.75]), 'coronal');
   await viewer.press('w');
   await expect(viewer.problem).toContainText('a vessel that is already traced');
-  await expect(rows(viewer)).toHaveCount(1);
+  await expect(rows(viewer)).toHaveCount(2);
+  await expect(rows(viewer).first().getByRole('radio')).toBeChecked();
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
   await viewer.press('Escape');
   await viewer.click(await at(viewer, AIR), 'coronal');

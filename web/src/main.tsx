@@ -4,7 +4,9 @@ import './style/views.css';
 import './style/panels.css';
 import './style/editing.css';
 import './style/measure.css';
+import './style/two-scans.css';
 import { render } from 'preact';
+import { offerToMainPage } from './compare/companion';
 import { followTool } from './edit/mode';
 import { followPointer, followWhole } from './edit/previews';
 import { followView, restore, stateOf } from './state/address';
@@ -25,10 +27,12 @@ import { listenToKeys } from './ui/keys';
 import { connect, EngineClient, engine } from './worker/engine';
 
 const asked = new URLSearchParams(window.location.search);
+const isCompanion = asked.has('companion');
 
 function addressOf(name: string): string | null {
   const meta = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${name}"]`);
-  const address = asked.get(name) ?? meta?.content ?? null;
+  // The scan that a server names belongs to the main page.
+  const address = asked.get(name) ?? (isCompanion ? null : meta?.content) ?? null;
   if (address === null) {
     return null;
   }
@@ -53,8 +57,10 @@ async function begin(): Promise<void> {
   if (state && report.value && !restore(state)) {
     showMessage('The view in the address belongs to another scan, so this scan is shown from the front.');
   }
-  followView();
-  followGuide();
+  if (!isCompanion) {
+    followView();
+    followGuide();
+  }
 }
 
 connect(new EngineClient());
@@ -64,7 +70,12 @@ if (root) {
 }
 listenToKeys();
 guardLeaving(window);
-followKeeping(sessionStorage, async () => new TextDecoder().decode(await savedSession()));
+if (isCompanion) {
+  offerToMainPage();
+} else {
+  // Both pages share the storage of the tab, which keeps the session of the main page.
+  followKeeping(sessionStorage, async () => new TextDecoder().decode(await savedSession()));
+}
 followEdits();
 followPlaceTurn();
 if (asked.has('test')) {

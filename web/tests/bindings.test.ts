@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { actionOf, actionOfKey, BINDINGS, inputName, type Where } from '../src/input/bindings';
+import { actionOf, actionOfKey, BINDINGS, inputName, keyOf, type Where } from '../src/input/bindings';
 
 const inputOf = (row: (typeof BINDINGS)[number], where: Where) =>
   [where, row.gesture, row.button ?? '', row.modifier ?? '', row.key ?? ''].join('|');
@@ -107,6 +107,21 @@ describe('keys', () => {
     ['s', '', 'silhouettes'],
   ] as const)('%s with %j does: %s', (key, modifier, action) => {
     expect(actionOfKey(key, modifier)).toBe(action);
+  });
+
+  test.each([
+    ['Z', false, 'undo'],
+    ['z', true, 'redo'],
+    ['z', false, 'undo'],
+    ['Z', true, 'redo'],
+  ])('%s with Ctrl, and Shift %j, does the same with Caps Lock: %s', (key, shiftKey, action) => {
+    expect(actionOfKey(keyOf({ key, shiftKey }), 'Ctrl')).toBe(action);
+  });
+
+  test('that are no letters stay as they are', () => {
+    for (const key of ['?', 'Enter', '1', ' ', '+']) {
+      expect(keyOf({ key, shiftKey: true })).toBe(key);
+    }
   });
 
   test('with Ctrl have no other action, so that shortcuts of the browser work', () => {

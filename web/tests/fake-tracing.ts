@@ -46,7 +46,7 @@ export class FakeTracing implements Asked {
   }
 
   private straight(points: readonly Vector[]): number {
-    this.lines.push({ points, radius: null, confidence: null, bridged: null });
+    this.lines.push({ points, radius: null, confidence: null, bridged: null, by_hand: null });
     return this.lines.length - 1;
   }
 

@@ -11,6 +11,7 @@ const line = (end: number): LineContent => ({
   radius: null,
   confidence: null,
   bridged: null,
+  by_hand: null,
 });
 
 const vessel = (id: number, number: number) => ({

@@ -57,6 +57,18 @@ test('strips have the same orientation as circles, whatever the direction of the
   }
 });
 
+test('no circle bulges beyond the ends of a long vessel, and one seen end-on is a circle', () => {
+  const long = Array.from({ length: 21 }, (_, n) => disc(0, 2 * n, 5));
+  const circles = hullPath(long, 2)
+    .split('Z')
+    .filter((part) => part.includes('A'));
+  const middles = circles.map((part) => corners(part)[0]?.[1] ?? 0);
+  expect(Math.min(...middles)).toBe(6);
+  expect(Math.max(...middles)).toBe(34);
+  const across = [disc(1, 1, 5), disc(2, 1, 5), disc(3, 1, 5)];
+  expect(hullPath(across, 0).match(/Z/g)).toHaveLength(5);
+});
+
 test('there is no strip between two points at the same position', () => {
   expect(
     hullPath([disc(1, 1, 2), disc(1, 1, 2)], 0)

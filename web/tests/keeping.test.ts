@@ -1,7 +1,7 @@
 /** The session is kept over a reload only if the user allows it. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { EMPTY } from '../src/state/document';
-import { begin, change, document_, markSaved } from '../src/state/history';
+import { begin, change, document_, markSaved, setGiven } from '../src/state/history';
 import { isKeeping, kept } from '../src/state/questions';
 import { report } from '../src/state/store';
 import { followKeeping } from '../src/study/unsaved';
@@ -42,7 +42,7 @@ test('nothing is kept without permission', async () => {
   expect(held.size).toBe(0);
 });
 
-test('with permission a change is kept and offered after a reload, until it is saved or discarded', async () => {
+test('with permission a change is kept and offered after a reload, until it is discarded', async () => {
   isKeeping.value = true;
   change('add', withLines(document_.value, 1));
   await later();
@@ -58,7 +58,12 @@ test('with permission a change is kept and offered after a reload, until it is s
   kept.value = null;
   await later();
   expect(sessions()).toEqual(['session of 2']);
+  // A reload takes saved work from the page, too.
   markSaved(document_.value);
+  await later();
+  expect(sessions()).toEqual(['session of 2']);
+  // Only what the files of the scan gave is not kept.
+  setGiven(document_.value);
   expect(sessions()).toEqual([]);
   isKeeping.value = false;
   expect(held.size).toBe(0);

@@ -22,7 +22,7 @@ test('one question is shown at a time, and Escape answers one after another', ()
   setKept('session');
   setPacsAsked(true);
   chooseFile({ file: { path: 'a', file: new File([], 'a') }, facts: [], doubts: [], refusal: null });
-  askWhatIs([]);
+  askWhatIs({ files: [], canBeMask: false });
   let gone = 0;
   askToLeave({ words: 'Discard?', go: async () => (gone += 1) });
   const seen = [];

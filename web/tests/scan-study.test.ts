@@ -12,12 +12,17 @@ const sources = series([0, 2, 4]).map(
 );
 const read = (): Promise<ExaminedFile[]> =>
   Promise.all(sources.map((source) => examine(source, new Recorder({ SOPInstanceUID: [] }))));
-const plan = { slices: [{ file: 1 }, { file: 2 }] } as unknown as Plan;
+const plan = {
+  slices: [{ file: 1 }, { file: 2 }],
+  patient: { id: 'A1', issuer: 'Ward' },
+  details: { modality: 'CT' },
+} as unknown as Plan;
 
 test('it contains the header of one slice without pixels, and the UIDs of all slices that were read', async () => {
   const study = await studyOf(plan, await read());
   expect(study?.instances).toEqual(['1.2.3.2.0', '1.2.3.4.0']);
   expect(study?.studyCount).toBe(1);
+  expect(study?.identity).toEqual({ patient: 'A1', issuer: 'Ward', modality: 'CT' });
   const whole = await sources[1]?.slice(0, 1 << 20);
   const pixels = 16 * 16 * 2;
   expect(study?.header).toEqual(whole?.subarray(0, whole.length - pixels));

@@ -1,6 +1,7 @@
 /** A document stays the same when it is saved as a session and opened again. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
+import { STANDARD } from '../src/core/planes';
 import { type Document, NO_MARKS } from '../src/state/document';
 import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/study/session-content';
 
@@ -70,6 +71,7 @@ const LOOKED: DisplayState = {
   settings: { window: [300, 900] },
   layout: 'strip',
   crossHair: [1, 2, 3],
+  slices: STANDARD,
   picked: { id: 1, at: 12.5 },
 };
 

@@ -203,6 +203,7 @@ test('the content of a line is requested once, and contains its length', async (
     radius: null,
     confidence: null,
     bridged: null,
+    by_hand: null,
   });
   const stop = followLines();
   open(line);

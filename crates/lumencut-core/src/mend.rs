@@ -22,11 +22,13 @@ pub enum Mend {
     Doubtful,
     /// Also search for thinner vessels.
     SmallerRadius,
+    /// Compare scans of two patients.
+    OtherPatient,
 }
 
 impl Mend {
     /// Every remedy of this crate.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Bridge,
         Self::EverySecond,
         Self::Cpu,
@@ -35,6 +37,7 @@ impl Mend {
         Self::FewerPixels,
         Self::Doubtful,
         Self::SmallerRadius,
+        Self::OtherPatient,
     ];
 
     /// The name of the remedy, the same in Python, on the command line and on the page.
@@ -48,6 +51,7 @@ impl Mend {
             Self::FewerPixels => "fewer_pixels",
             Self::Doubtful => "doubtful",
             Self::SmallerRadius => "smaller_radius",
+            Self::OtherPatient => "other_patient",
         }
     }
 }
@@ -63,6 +67,7 @@ impl fmt::Display for Mend {
             Self::FewerPixels => "choose larger pixels or a smaller width",
             Self::Doubtful => "inspect the doubtful vessels",
             Self::SmallerRadius => "choose a smaller radius",
+            Self::OtherPatient => "accept scans of two patients",
         })
     }
 }

@@ -52,6 +52,7 @@ pub const SHADERS: &[Shader] = shaders![
     "math/view",
     "math/walk",
     "math/walls",
+    "math/whole_curve",
     "math/window",
     "stages/composite",
     "stages/context",

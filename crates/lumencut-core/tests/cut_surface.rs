@@ -3,7 +3,7 @@
 
 use glam::{DQuat, DVec3};
 use lumencut_core::camera::Camera;
-use lumencut_core::settings::Settings;
+use lumencut_core::settings::{DistanceRule, Settings};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_scenes::brute_force::by_hierarchy;
 use lumencut_scenes::compare::different_pixels;
@@ -124,6 +124,28 @@ fn the_trefoil_is_threefold_symmetric() {
     SYMMETRIC.assert_same(a.depth(), b.depth(), "depths");
     let spread = a.depth().iter().fold(0f32, |s, z| s.max(z.abs()));
     assert!(spread > 15.0, "the knot is flat: {spread}");
+}
+
+#[test]
+fn the_distance_to_the_whole_curve_hides_most_of_the_trefoil() {
+    let (knot, camera) = (trefoil(300), front([400, 400], 0.4));
+    let shown = |distance_rule| {
+        let settings = Settings { distance_rule, ..paper_unfiltered() };
+        let frame = by_hierarchy(&knot, &camera, &settings);
+        let points = knot.vessels()[0].points().iter().map(|point| camera.view_from_world(*point));
+        points.filter(|p| (f64::from(at(&frame, frame.depth(), p.x, p.y)) - p.z).abs() < 0.5).count()
+    };
+    // Three crossings hide a tenth of the line. With the whole curve, its front part wins wherever it is above the line.
+    let [local, whole] = [DistanceRule::Local, DistanceRule::WholeCurve].map(shown);
+    assert!((260..285).contains(&local), "{local}");
+    assert!((80..140).contains(&whole), "{whole}");
+}
+
+#[test]
+fn the_whole_curve_counts_only_by_the_cost_of_the_paper() {
+    let settings = Settings { distance_rule: DistanceRule::WholeCurve, ..Settings::default() };
+    assert_eq!(settings.check().unwrap_err().subject, "distance_rule");
+    assert!(Settings { lumen_first: false, ..settings }.check().is_ok());
 }
 
 #[test]

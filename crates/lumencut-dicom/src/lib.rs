@@ -71,6 +71,7 @@ pub use headers::{Attributes, File, FrameOf, Header, Headers, Unlike};
 pub use judging::{Wanted, describe, judge};
 pub use keyword::Keyword;
 pub use mend::Mend;
+pub use patients::PatientId;
 pub use plan::{Compared, Details, Fill, Plan, PlannedSlice};
 pub use report::Report;
 pub use scan::Scan;

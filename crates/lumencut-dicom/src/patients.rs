@@ -5,7 +5,24 @@ use crate::grouping::groups;
 use crate::image::Image;
 use crate::keyword::Keyword;
 use crate::value::Value;
-use crate::wording::{counted, listed, quoted, shown};
+use crate::wording::{counted, listed, printable, quoted, shown};
+use serde::Serialize;
+
+/// The patient of a series, by which two scans are compared; empty where none is stated. It is never shown as part of a volume.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PatientId {
+    /// PatientID.
+    pub id: String,
+    /// IssuerOfPatientID.
+    pub issuer: String,
+}
+
+impl PatientId {
+    pub(crate) fn of(image: &Image) -> Self {
+        let Patient { id, issuer, .. } = Patient::of(image);
+        Self { id: printable(&id), issuer: printable(&issuer) }
+    }
+}
 
 #[derive(Debug)]
 pub(crate) struct Patient {

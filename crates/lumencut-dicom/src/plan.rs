@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::geometry::Stack;
 use crate::keyword::Keyword;
 use crate::oddities::images_of;
+use crate::patients::PatientId;
 use crate::scan::Scan;
 use crate::series::Series;
 use crate::slices::{Pair, Slice};
@@ -39,6 +40,8 @@ pub struct Plan {
     pub details: Details,
     /// How the scan was made.
     pub scan: Scan,
+    /// The patient of the series.
+    pub patient: PatientId,
 }
 
 /// A slice that is read.
@@ -108,6 +111,7 @@ impl Plan {
             notes,
             details: details(series, stack),
             scan: Scan::of(series, &stack.slices),
+            patient: PatientId::of(stack.slices[0].image),
         }
     }
 }

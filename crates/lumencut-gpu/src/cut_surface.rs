@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::pipeline::Request;
-use lumencut_core::settings::{LevelChoice, MAX_LEVELS};
+use lumencut_core::settings::{DistanceRule, LevelChoice, MAX_LEVELS};
 use lumencut_core::stages::Stage as Table;
 use lumencut_core::stages::focus::FocusParameters;
 use wgpu::Buffer;
@@ -38,8 +38,8 @@ pub(crate) struct CutSurfaceStages {
     /// Compiled when needed.
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
-    /// A stage for each combination of level choice, *lumen first* and details; compiled when needed.
-    depth: [[[Option<Stage>; 3]; 2]; 2],
+    /// A stage for each combination of distance rule, level choice, *lumen first* and details; compiled when needed.
+    depth: [[[[Option<Stage>; 3]; 2]; 2]; 2],
     parameters: Buffer,
     /// The layout of the levels that was written last.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
@@ -148,15 +148,16 @@ impl CutSurfaceStages {
     }
 
     fn depth_stage(&mut self, device: &Device, rules: DepthRules) -> &Stage {
-        let DepthRules { is_own, lumen_first, details } = rules;
-        let [own, lumen] = [is_own, lumen_first].map(usize::from);
-        self.depth[own][lumen][details as usize].get_or_insert_with(|| {
+        let DepthRules { whole_curve, is_own, lumen_first, details } = rules;
+        let [curve, own, lumen] = [whole_curve, is_own, lumen_first].map(usize::from);
+        self.depth[curve][own][lumen][details as usize].get_or_insert_with(|| {
             let [across, rows] = tile_of(device).map(|n| n as f64);
-            let switches = [lumen_first, details == Details::Sheet, details == Details::Blend];
-            let [lumen_first, has_sheet, has_blend] = switches.map(|is| f64::from(u8::from(is)));
+            let switches = [whole_curve, lumen_first, details == Details::Sheet, details == Details::Blend];
+            let [whole_curve, lumen_first, has_sheet, has_blend] = switches.map(|is| f64::from(u8::from(is)));
             let constants = [
                 ("ACROSS", across),
                 ("ROWS", rows),
+                ("WHOLE_CURVE", whole_curve),
                 ("LUMEN_FIRST", lumen_first),
                 ("HAS_SHEET", has_sheet),
                 ("HAS_BLEND", has_blend),
@@ -177,6 +178,7 @@ pub(crate) enum Details {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct DepthRules {
+    pub whole_curve: bool,
     pub is_own: bool,
     pub lumen_first: bool,
     pub details: Details,
@@ -192,8 +194,12 @@ impl DepthRules {
             (false, true) => &[Details::Blend],
             (true, true) => &[Details::Sheet, Details::Blend],
         };
-        let is_own = settings.level_choice == LevelChoice::Own;
-        let run = |details: &Details| Self { is_own, lumen_first: settings.lumen_first, details: *details };
+        let run = |details: &Details| Self {
+            whole_curve: settings.distance_rule == DistanceRule::WholeCurve,
+            is_own: settings.level_choice == LevelChoice::Own,
+            lumen_first: settings.lumen_first,
+            details: *details,
+        };
         wanted.iter().map(run).collect()
     }
 }

@@ -20,6 +20,8 @@ pub struct Line {
     pub name: Option<String>,
     /// Confidence of each point (0 to 1) of a traced line. It is written, but not read.
     pub confidence: Option<Vec<f64>>,
+    /// Whether a reader moved each point by hand. It is written, but not read.
+    pub by_hand: Option<Vec<bool>>,
     /// Number of the point list from which this line was cut, if the list was split at long jumps.
     pub list: Option<usize>,
 }

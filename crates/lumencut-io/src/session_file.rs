@@ -4,10 +4,7 @@
 //! [`FIELD`] has everything else, but no file names or patient data. Points are in LPS, lengths in mm.
 //! The page's types are generated from the types here; they skip what the page leaves to the engine.
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use crate::centerlines::Line;
 use crate::error::{Error, Result, excerpt};
@@ -16,11 +13,15 @@ use crate::read;
 use crate::write::check_all;
 use crate::write::mrk_json::markups;
 
+mod view;
+
+pub use view::{Camera, Picked, SliceAxes, Slices, View};
+
 /// Name of the field that is added to the markups file.
 pub const FIELD: &str = "LumencutSession";
 
-/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, hidden bone, contours and noted
-/// diameters. Files use
+/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, hidden bone, contours and lines by hand,
+/// noted diameters, and planes of slices. Files use
 /// the lowest sufficient version, so that older programs reject only files that they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
@@ -81,8 +82,10 @@ impl Session {
     fn least_format(&self) -> u32 {
         let has_diameters = |marks: &Marks| !(marks.diameters_mm.is_empty() && marks.confirmed_mm.is_empty());
         let marks = self.vessels.iter().filter_map(|vessel| vessel.marks.as_ref());
-        let has_contours = self.vessels.iter().any(|vessel| !vessel.contours_mm.is_empty());
-        let has_more = self.one_millimetre_assumed || self.bone_hidden || has_contours;
+        let is_by_hand = |vessel: &VesselState| !vessel.contours_mm.is_empty() || vessel.by_hand.is_some();
+        let has_contours = self.vessels.iter().any(is_by_hand);
+        let has_slices = self.view.as_ref().is_some_and(|view| view.slices.is_some());
+        let has_more = self.one_millimetre_assumed || self.bone_hidden || has_contours || has_slices;
         FORMATS[usize::from(has_more || marks.into_iter().any(has_diameters))]
     }
 
@@ -122,6 +125,10 @@ pub struct VesselState {
     /// Whether each point lies on a bridged stretch without lumen.
     #[cfg_attr(feature = "types", ts(skip))]
     pub bridged: Option<Vec<bool>>,
+    /// Whether the reader moved each point of the line; exists since version 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "types", ts(skip))]
+    pub by_hand: Option<Vec<bool>>,
     /// Marks that the reader set, if any.
     pub marks: Option<Marks>,
     /// Contours that the reader drew: arc length, centre (to the right and down in the section), and distances from the centre at
@@ -207,54 +214,6 @@ pub struct Ruler {
     pub to: Point,
 }
 
-/// The view of a scan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedView"))]
-#[serde(deny_unknown_fields)]
-pub struct View {
-    /// Camera of the 3D view.
-    pub camera: Camera,
-    /// Reformation: `csr`, `csr-paper`, `mpcpr` or `cr`.
-    pub method: String,
-    /// Values of settings that differ from the default, by name; a window is level and width.
-    #[cfg_attr(feature = "types", ts(type = "Settings"))]
-    pub settings: BTreeMap<String, Value>,
-    /// Layout of the page.
-    pub layout: String,
-    /// Position of the cross-hair, if it is shown.
-    pub cross_hair: Option<Point>,
-    /// The vessel that is shown straightened, and the place whose cross-section is shown.
-    pub picked: Option<Picked>,
-}
-
-/// A place on a vessel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedPlace"))]
-#[serde(deny_unknown_fields)]
-pub struct Picked {
-    /// Number of the vessel, from 0.
-    pub vessel: usize,
-    /// Arc length (mm).
-    pub at_mm: f64,
-}
-
-/// An orthographic camera; its axes are unit vectors.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedCamera"))]
-#[serde(deny_unknown_fields)]
-pub struct Camera {
-    /// Centre of the image.
-    pub center: Point,
-    /// Direction from the viewer into the scene.
-    pub direction: Point,
-    /// Direction that is up in the image.
-    pub up: Point,
-    /// Number of columns and rows.
-    pub size: [usize; 2],
-    /// Side of a pixel (mm).
-    pub pixel_spacing: f64,
-}
-
 /// Whether the content is a session file.
 #[must_use]
 pub fn is_session(content: &[u8]) -> bool {
@@ -320,6 +279,10 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
             Session { vessels, .. } if vessels.iter().any(|vessel| !vessel.contours_mm.is_empty()) => {
                 "contours"
             }
+            Session { vessels, .. } if vessels.iter().any(|vessel| vessel.by_hand.is_some()) => {
+                "a line by hand"
+            }
+            Session { view: Some(View { slices: Some(_), .. }), .. } => "planes of slices",
             _ => "noted diameters",
         };
         let found = format!("{what} in version {}", session.format);
@@ -335,6 +298,7 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
         check_color(&subject, &state.color)?;
         check_count(&subject, "confidences", state.confidence.as_deref(), count)?;
         check_count(&subject, "bridged points", state.bridged.as_deref(), count)?;
+        check_count(&subject, "points by hand", state.by_hand.as_deref(), count)?;
         if let Some(marks) = &state.marks {
             check_marks(&subject, marks)?;
         }

@@ -3,6 +3,7 @@
 use lumencut::comparison::Compared;
 use lumencut::measure::comparison::{self, ComparedPlace};
 use lumencut::report::comparison::comparison_html;
+use lumencut::scan_identity::{ScanIdentity, doubts};
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
@@ -25,6 +26,7 @@ impl Comparison {
             scans: self.scans.clone(),
             comparison: &self.comparison,
             doubts: self.doubts.clone(),
+            pictures: Vec::new(),
         }
     }
 
@@ -106,7 +108,8 @@ impl Comparison {
     }
 }
 
-/// Compares two profiles; `pairs` are arc lengths on both that belong together (mm).
+/// Compares two profiles; `pairs` are arc lengths on both that belong together (mm), `stated` the patient, issuer and modality of each
+/// scan.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn compare_scans(
@@ -115,8 +118,11 @@ pub(crate) fn compare_scans(
     pairs: Vec<[f64; 2]>,
     vessel: String,
     scans: [String; 2],
-    doubts: Vec<String>,
+    stated: [(String, String, String); 2],
+    other_patient: bool,
 ) -> PyResult<Comparison> {
+    let stated = stated.map(|(patient, issuer, modality)| ScanIdentity { patient, issuer, modality });
+    let doubts = doubts(&stated, other_patient).map_err(to_python)?;
     let [first, second] = profiles.each_ref().map(|profile| &profile.get().0);
     let comparison = py.detach(|| comparison::compare(first, second, &pairs)).map_err(to_python)?;
     Ok(Comparison { comparison, vessel, scans, doubts })
@@ -125,7 +131,7 @@ pub(crate) fn compare_scans(
 /// The report of compared vessels as HTML.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn comparison_report(vessels: Vec<Py<Comparison>>) -> String {
+pub(crate) fn comparison_report(vessels: Vec<Py<Comparison>>) -> PyResult<String> {
     let compared: Vec<Compared> = vessels.iter().map(|one| one.get().compared()).collect();
-    comparison_html(&compared)
+    comparison_html(&compared).map_err(to_python)
 }

@@ -33,6 +33,7 @@ impl LineArrays<'_> {
             radius: radius.as_ref().map(|radius| radius.as_array().to_vec()),
             confidence: confidence.as_ref().map(|confidence| confidence.as_array().to_vec()),
             bridged: bridged.as_ref().map(|bridged| bridged.as_array().to_vec()),
+            by_hand: None,
         })
     }
 }

@@ -62,9 +62,8 @@ impl Grade {
         self.0.not_graded()
     }
 
-    #[getter]
-    fn lines(&self) -> Vec<String> {
-        self.0.lines()
+    fn lines(&self, profile: &Profile) -> Vec<String> {
+        self.0.lines(&profile.0)
     }
 }
 

@@ -97,8 +97,8 @@ impl GridArgument {
 
 /// Why a grid's lengths, from size (ni, nj, nk) and affine rows, are implausible; None if they are plausible.
 #[pyfunction]
-pub(crate) fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
-    lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
+pub(crate) fn doubted_grid(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
+    lumencut::doubted_scan::doubted_grid(size, affine(affine_rows))
 }
 
 /// Number of points that are sampled before the next check whether to stop.

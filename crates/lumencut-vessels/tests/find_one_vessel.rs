@@ -111,6 +111,18 @@ fn a_click_behind_the_end_of_a_vessel_that_ends_in_another_one_adds_nothing() {
 }
 
 #[test]
+fn a_click_at_the_rim_of_a_vessel_that_there_is_adds_nothing() {
+    let tree = tree();
+    let mut traced = tree.vessels[1].line.clone();
+    traced.radius.fill(2.0);
+    // The click lies in the artery, but outside the smaller radius of the traced one.
+    let rim = DVec3::new(30.0, -2.5, 50.0);
+    assert_eq!(one_vessel(&tree, rim, 0.5, &[traced]), Err(NoVessel::Already));
+    // A vessel that leaves it is still found.
+    assert!(one_vessel(&tree, IN_BRANCH, 0.5, &lines(&tree)[..2]).is_ok());
+}
+
+#[test]
 fn vessels_that_begin_at_one_point_lead_to_an_end() {
     let mut tree = tree();
     let twin = line(DVec3::ZERO, DVec3::X * -40.0, 4.0);

@@ -67,6 +67,41 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());
 }
 
+/// A tube of radius 4 mm (300, noise 8) in tissue (100) and a brighter layer (150), without negative values as in MR.
+fn in_mr() -> (Vec<i16>, [usize; 3], DAffine3) {
+    let size = [48, 48, 40];
+    let mut seed = 3u32;
+    let mut uniform = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed >> 16) / 65536.0 - 0.5
+    };
+    let value = |n: usize| {
+        let [x, y] = [(n % 48) as f64 - 23.5, (n / 48 % 48) as f64 - 23.5];
+        let tissue = if x > 12.0 { 150.0 } else { 100.0 };
+        let deviate: f64 = (0..12).map(|_| uniform()).sum();
+        (if x.hypot(y) < 4.0 { 300.0 } else { tissue } + 8.0 * deviate).round() as i16
+    };
+    let count = size.iter().product();
+    ((0..count).map(value).collect(), size, DAffine3::from_translation(DVec3::new(-23.5, -23.5, -19.5)))
+}
+
+#[test]
+fn a_first_click_in_tissue_of_mr_is_refused_with_the_nearest_lumen() {
+    let (values, size, affine) = in_mr();
+    let volume = Volume::new(Voxels::I16(&values), size, [1, size[0], size[0] * size[1]], affine).unwrap();
+    let tracer = Tracer::default();
+    for inside in [DVec3::ZERO, DVec3::new(2.0, -1.0, 5.0)] {
+        assert!(tracer.check_click(&volume, inside).is_ok());
+    }
+    let refused = tracer.check_click(&volume, DVec3::new(0.0, 11.0, 0.0)).unwrap_err();
+    assert!(refused.found.starts_with("tissue, or blood without signal"), "{refused}");
+    assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
+    assert!(tracer.check_click(&volume, DVec3::new(0.0, 20.0, 0.0)).is_err(), "far from lumen, too");
+    // A second click in tissue is refused because of the first one, and lines between good clicks are traced.
+    let ends = [DVec3::Z * -12.0, DVec3::Z * 12.0];
+    assert!(traced(&volume, &ends).is_ok());
+}
+
 #[test]
 fn a_line_that_folds_back_within_a_lumen_is_made_calm_and_a_straight_one_stays() {
     let phantom = straight_tube().unwrap();

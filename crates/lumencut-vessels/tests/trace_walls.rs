@@ -92,24 +92,41 @@ fn a_line_between_clicks_in_an_artery_stays_in_it_or_is_told_to_leave_it() {
     }
 }
 
+/// A line along the artery, moved sideways.
+fn aside(by: &dyn Fn(f64) -> f64) -> Centerline {
+    let places = (12..=176).map(|n| f64::from(n) * LENGTH / 188.0);
+    let points: Vec<DVec3> = places.map(|z| artery(z) + DVec3::X * by(z)).collect();
+    let count = points.len();
+    Centerline { points, radius: vec![1.5; count], confidence: vec![1.0; count] }
+}
+
+/// A line that leaves the artery for the vein between two levels (mm).
+fn through_vein(gap: f64, [from, to]: [f64; 2]) -> Centerline {
+    aside(&|z| (RADII[0] + gap + RADII[1]) * share((z - from) / 8.0) * share((to - z) / 8.0))
+}
+
+#[test]
+fn distant_crossings_are_doubts_of_their_own() {
+    Pair { gap: Some(0.6), stenosis: 0.0, noise: 20.0 }.with(|volume| {
+        let line = through_vein(0.6, [12.0, 39.0]);
+        let doubted = Doubted { line: &line, bridged: &[], clicks: &[] };
+        let doubts = doubted.doubts(&voxels::Voxels::new(volume));
+        let crossed: Vec<_> = doubts.iter().filter(|doubt| doubt.words.contains("dark sheet")).collect();
+        let [first, second] = crossed[..] else { panic!("{doubts:?}") };
+        assert!(second.at.unwrap() - first.at.unwrap() > 20.0, "{crossed:?}");
+        assert!(crossed.iter().all(|doubt| doubt.words.starts_with("Doubtful at ")), "{crossed:?}");
+    });
+}
+
 #[test]
 fn a_line_through_a_vein_is_told_from_where_it_leaves_its_artery_and_the_axis_is_silent() {
-    let line = |aside: &dyn Fn(f64) -> f64| {
-        let points: Vec<DVec3> = (12..=176)
-            .map(|n| f64::from(n) * LENGTH / 188.0)
-            .map(|z| artery(z) + DVec3::X * aside(z))
-            .collect();
-        let count = points.len();
-        Centerline { points, radius: vec![1.5; count], confidence: vec![1.0; count] }
-    };
     for gap in [0.3, 0.6] {
         let pair = Pair { gap: Some(gap), stenosis: 0.0, noise: 20.0 };
-        let to_vein =
-            |z: f64| (RADII[0] + gap + RADII[1]) * share((z - 15.0) / 8.0) * share((35.0 - z) / 8.0);
+        let to_vein = through_vein(gap, [15.0, 35.0]);
         pair.with(|volume| {
-            let told = doubts(volume, &line(&to_vein), &[]);
+            let told = doubts(volume, &to_vein, &[]);
             assert!(told.iter().any(|words| words.contains("crosses a dark sheet")), "{told:?}");
-            assert_eq!(doubts(volume, &line(&|_| 0.0), &[]), Vec::<String>::new());
+            assert_eq!(doubts(volume, &aside(&|_| 0.0), &[]), Vec::<String>::new());
         });
     }
 }

@@ -143,6 +143,11 @@ impl Engine {
         answer(self.study.begin_mask(header))
     }
 
+    /// Fails if a volume with this header is no mask of the open scan.
+    pub fn check_mask(&self, header: &str) -> Thrown<()> {
+        answer(self.study.check_mask(header))
+    }
+
     /// Writes bytes of the mask's voxels from `offset` on.
     pub fn take_mask_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.mask_bytes(offset as usize, bytes.length() as usize);

@@ -22,6 +22,8 @@ pub struct Compared<'a> {
     pub comparison: &'a Comparison,
     /// Doubts about the scans, such as another patient.
     pub doubts: Vec<String>,
+    /// Pictures of the earlier and the later scan for the report (PNG in base64); may be empty.
+    pub pictures: Vec<String>,
 }
 
 impl Compared<'_> {
@@ -97,8 +99,12 @@ fn cell(value: f64) -> String {
 
 /// A difference with its sign.
 pub(crate) fn signed(value: f64) -> String {
-    let sign = if value > 0.0 { "+" } else { "" };
-    format!("{sign}{}", fixed(value, 2))
+    let text = fixed(value, 2);
+    match text.trim_start_matches('-') {
+        "0.00" => "0.00".to_owned(),
+        _ if value > 0.0 => format!("+{text}"),
+        _ => text,
+    }
 }
 
 fn change(Change { range, largest }: &Change) -> String {

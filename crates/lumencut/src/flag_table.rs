@@ -1,8 +1,8 @@
 //! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
 use lumencut_vessels::measure::section::flags::{
-    AT_LIMIT, BRANCH, BY_HAND, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED,
-    RESTLESS_LINE,
+    AT_LIMIT, BRANCH, BY_HAND, CALCIUM, IRREGULAR, LINE_BY_HAND, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE,
+    RECENTERED, RESTLESS_LINE,
 };
 use serde::Serialize;
 
@@ -36,7 +36,7 @@ const fn look(
 }
 
 /// All flags, in the order of plots and tables.
-pub const FLAGS: [FlagLook; 12] = [
+pub const FLAGS: [FlagLook; 13] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
         [
@@ -95,6 +95,11 @@ pub const FLAGS: [FlagLook; 12] = [
         ["#a0522d", "#d98a5f"],
     ),
     look(("BY_HAND", BY_HAND), ["by hand", "the reader drew the contour"], ["#00708a", "#6fd3ff"]),
+    look(
+        ("LINE_BY_HAND", LINE_BY_HAND),
+        ["line by hand", "the reader moved the centerline"],
+        ["#5a6b00", "#c3d94a"],
+    ),
 ];
 
 pub(crate) fn set_in(bits: u32) -> impl Iterator<Item = &'static FlagLook> {

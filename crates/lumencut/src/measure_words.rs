@@ -7,7 +7,7 @@ use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::Source;
 use lumencut_vessels::measure::profile::outer_volume::OuterStretch;
 use lumencut_vessels::measure::profile::stretch::CArm;
-use lumencut_vessels::measure::section::flags::LEFT_OUT;
+use lumencut_vessels::measure::section::flags::{LEFT_OUT, METAL};
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
 use lumencut_vessels::measure::wall::{CT_WALL, WallSource};
 
@@ -34,20 +34,28 @@ pub fn of_stenosis(graded: &Stenosis) -> String {
         _ => ("reference", places(&graded.references)),
     };
     format!(
-        "{} % {what} ({method}{}): {} ± {} mm at {} mm, {against} {} mm{places}",
+        "{} % {what} ({method}{}): {}, {against} {} mm{places}",
         of_percent(graded.percent, graded.percent_uncertainty),
-        of_left_out(graded.doubts.flags),
-        fixed(graded.diameter, 2),
-        fixed(graded.uncertainty, 2),
-        fixed(graded.at, 1),
+        of_unreliable(graded.doubts.flags),
+        of_diameter((graded.diameter, graded.uncertainty), graded.at),
         fixed(graded.reference, 2),
     )
 }
 
-/// States, in the first line, that the percentage rests on a section that does not count.
-fn of_left_out(flags: u32) -> String {
-    let why = of_flags(flags & LEFT_OUT).join(", ");
-    if why.is_empty() { why } else { format!("; doubtful, as a section does not count: {why}") }
+/// A diameter with its uncertainty and its place (mm).
+pub(crate) fn of_diameter((diameter, uncertainty): (f64, f64), at: f64) -> String {
+    format!("{} ± {} mm at {} mm", fixed(diameter, 2), fixed(uncertainty, 2), fixed(at, 1))
+}
+
+/// States, in the first line, that the percentage rests on a section that does not count or that lies in metal.
+fn of_unreliable(flags: u32) -> String {
+    let left_out = of_flags(flags & LEFT_OUT).join(", ");
+    let why = [
+        (!left_out.is_empty()).then(|| format!("a section does not count: {left_out}")),
+        (flags & METAL != 0).then(|| "a place lies in metal".to_owned()),
+    ];
+    let why: Vec<String> = why.into_iter().flatten().collect();
+    if why.is_empty() { String::new() } else { format!("; doubtful, as {}", why.join(", and ")) }
 }
 
 /// A percentage with its standard deviation. The deviation is rounded up, since no percentage is accurate to less than 1 %.

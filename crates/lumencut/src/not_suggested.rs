@@ -1,20 +1,16 @@
 //! Describes why no place on a vessel is suggested as narrowest place or reference.
 
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::stenosis::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::stenosis::suggestions::Spot;
 
 use crate::flag_table::FLAGS;
+use crate::narrower::{HINDRANCES, narrower};
 use crate::profile_marks::{main_place, offered_references};
-
-pub(crate) const HINDRANCES: [(u32, &str); 3] =
-    [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
 /// Why no narrowest place or reference is suggested, or a narrower place is not, a sentence each; `at` and `references` are marked places (mm).
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     let throat = profile.throat().filter(|_| at.is_none()).map(no_clear_wall);
-    let passed_over = profile.passed_over().filter(|_| at.is_none()).map(passed_over);
-    throat.into_iter().chain(passed_over).chain(no_place(profile, at, references)).collect()
+    throat.into_iter().chain(narrower(profile, at)).chain(no_place(profile, at, references)).collect()
 }
 
 fn no_place(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
@@ -35,17 +31,12 @@ fn no_place(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<Strin
 /// Only this many reasons are reported: those that apply to the most sections.
 const MAX_REASONS: usize = 3;
 
-fn passed_over((spot, hindrances): (Spot, u32)) -> String {
-    let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
-    let words: Vec<&str> = bits.filter(|(bit, _)| hindrances & bit != 0).map(|(_, word)| word).collect();
-    let why =
-        if words.is_empty() { "the vessel tapers towards its end".to_owned() } else { words.join(", ") };
-    format!("Narrower, but not suggested: {:.2} mm at {:.1} mm ({why}). Check it.", spot.diameter, spot.at)
-}
-
 fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();
-    let counted = |bit: u32| hindrances.iter().filter(|found| *found & bit != 0).count();
+    let counting: Vec<usize> = (0..profile.len()).filter(|n| profile.counts(*n)).collect();
+    let all: Vec<usize> = (0..profile.len()).collect();
+    let told = if counting.is_empty() { &all } else { &counting };
+    let counted = |bit: u32| told.iter().filter(|n| hindrances[**n] & bit != 0).count();
     let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
     // Inserting into a short list needs less code than a sort.
     let mut found: Vec<(usize, &str)> = Vec::new();
@@ -59,7 +50,11 @@ fn none_safe(profile: &Profile) -> String {
     }
     let words: Vec<&str> = found.iter().map(|(_, word)| *word).collect();
     let why = if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) };
-    format!("No narrowest place is suggested: no section is reliable{why}. Mark it yourself.")
+    let found = match counting.len() {
+        0 => "no section counts".to_owned(),
+        count => format!("each of the {count} sections that count has a doubt"),
+    };
+    format!("No narrowest place is suggested: {found}{why}. Mark it yourself.")
 }
 
 fn no_clear_wall(throat: Spot) -> String {

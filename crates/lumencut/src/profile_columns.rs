@@ -20,7 +20,7 @@ pub(crate) enum Column<'a> {
 }
 
 /// The columns of a profile by name, except its flags.
-pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 29] {
+pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 30] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
         ("diameter_min", Column::Numbers(&mut profile.diameter_min)),
@@ -50,6 +50,7 @@ pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 29]
         ("fwhm", Column::Number(&mut profile.fwhm)),
         ("fwhm_deviation", Column::Number(&mut profile.fwhm_deviation)),
         ("on_vessel", Column::Points(&mut profile.on_vessel)),
+        ("line_values", Column::Numbers(&mut profile.line_values)),
         ("without_wall", Column::Pairs(&mut profile.without_wall)),
     ]
 }
@@ -167,12 +168,13 @@ pub(crate) fn empty() -> Profile {
         fwhm_source: Source::Given,
         wall_source: WallSource::NotAsked,
         on_vessel: Vec::new(),
+        line_values: Vec::new(),
         without_wall: Vec::new(),
     }
 }
 
 /// The numbers of sections of all columns, which are equal in a profile.
-pub(crate) fn lengths(profile: &Profile) -> [usize; 26] {
+pub(crate) fn lengths(profile: &Profile) -> [usize; 27] {
     [
         profile.arc_length.len(),
         profile.diameter_min.len(),
@@ -200,5 +202,6 @@ pub(crate) fn lengths(profile: &Profile) -> [usize; 26] {
         profile.inscribed_radius.len(),
         profile.levels.len(),
         profile.on_vessel.len(),
+        profile.line_values.len(),
     ]
 }

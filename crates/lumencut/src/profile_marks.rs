@@ -6,7 +6,8 @@ use lumencut_vessels::measure::stenosis::groups::Territory;
 use lumencut_vessels::measure::stenosis::suggestions::Spot;
 use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 
-use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_limit, of_stenosis};
+use crate::measure_words::{MILLIMETRE_ASSUMED, of_diameter, of_doubts, of_limit, of_stenosis};
+use crate::narrower::narrower;
 use crate::scan_details::ScanDetails;
 
 /// A reader's marks on one vessel. Inputs of all methods are kept, so that switching the method loses nothing.
@@ -41,8 +42,13 @@ pub enum Grade {
         /// The severity group with its source, if a territory was named and the method has groups.
         group: Option<String>,
     },
-    /// Why there is no percentage: a missing mark or an invalid place.
-    NotGraded(String),
+    /// No percentage.
+    NotGraded {
+        /// The marked place, an arc length (mm), if something was measured there.
+        at: Option<f64>,
+        /// Why there is no percentage: a missing mark or an invalid place.
+        reason: String,
+    },
 }
 
 impl Grade {
@@ -50,7 +56,7 @@ impl Grade {
     pub fn stenosis(&self) -> Option<&Stenosis> {
         match self {
             Self::Graded { stenosis, .. } => Some(stenosis),
-            Self::NotGraded(_) => None,
+            Self::NotGraded { .. } => None,
         }
     }
 
@@ -58,7 +64,7 @@ impl Grade {
     pub fn group(&self) -> Option<&str> {
         match self {
             Self::Graded { group, .. } => group.as_deref(),
-            Self::NotGraded(_) => None,
+            Self::NotGraded { .. } => None,
         }
     }
 
@@ -66,17 +72,38 @@ impl Grade {
     pub fn not_graded(&self) -> Option<&str> {
         match self {
             Self::Graded { .. } => None,
-            Self::NotGraded(reason) => Some(reason),
+            Self::NotGraded { reason, .. } => Some(reason),
         }
     }
 
-    /// The result as lines of text: percentage, doubts and group, or why there is no percentage.
-    pub fn lines(&self) -> Vec<String> {
+    /// The marked place that was measured, an arc length (mm).
+    pub(crate) fn at(&self) -> Option<f64> {
         match self {
-            Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],
+            Self::Graded { stenosis, .. } => Some(stenosis.at),
+            Self::NotGraded { at, .. } => *at,
+        }
+    }
+
+    /// The first line of the result: the percentage, or the diameter and why there is no percentage.
+    pub(crate) fn headline(&self, profile: &Profile) -> String {
+        match self {
+            Self::Graded { stenosis, .. } => of_stenosis(stenosis),
+            Self::NotGraded { at, reason } => {
+                let known = at.and_then(|at| Some((at, profile.diameter_at(at).ok()?)));
+                let known = known.map(|(at, measured)| format!("{}. ", of_diameter(measured, at)));
+                format!("{}No percentage: {reason}", known.unwrap_or_default())
+            }
+        }
+    }
+
+    /// The result as lines of text: percentage, doubts, a narrower place and group, or why there is no percentage.
+    pub fn lines(&self, profile: &Profile) -> Vec<String> {
+        match self {
+            Self::NotGraded { reason, .. } => vec![format!("no percentage: {reason}")],
             Self::Graded { stenosis, group } => {
                 let group = group.iter().map(|group| format!("severity group: {group}"));
-                [of_stenosis(stenosis)].into_iter().chain(of_doubts(&stenosis.doubts)).chain(group).collect()
+                let doubts = of_doubts(&stenosis.doubts).into_iter().chain(narrower(profile, self.at()));
+                [of_stenosis(stenosis)].into_iter().chain(doubts).chain(group).collect()
             }
         }
     }
@@ -86,11 +113,12 @@ impl Marked {
     /// Grades the marked place; None if nothing is marked. Only the inputs of the chosen method are used.
     pub fn grade(&self, profile: &Profile) -> Option<Grade> {
         let is_marked = self.at.is_some() || !self.compared.reference.is_empty();
-        is_marked.then(|| self.graded(profile).unwrap_or_else(Grade::NotGraded))
+        let at = self.at.filter(|at| profile.diameter_at(*at).is_ok());
+        is_marked.then(|| self.graded(profile).unwrap_or_else(|reason| Grade::NotGraded { at, reason }))
     }
 
     fn graded(&self, profile: &Profile) -> std::result::Result<Grade, String> {
-        let at = self.at.ok_or("Mark the place of the stenosis.")?;
+        let at = self.at.ok_or("mark the place of the stenosis.")?;
         let words = |error: lumencut_core::error::Error| error.to_string();
         profile.diameter_at(at).map_err(words)?;
         if let Some(missing) = self.missing() {
@@ -110,7 +138,7 @@ impl Marked {
                 .is_none()
                 .then_some("ECST needs the assumed original diameter at that place."),
             Method::Nascet | Method::Area => {
-                self.compared.reference.is_empty().then_some("Mark a reference: where the vessel is normal.")
+                self.compared.reference.is_empty().then_some("mark a reference where the vessel is normal.")
             }
         }
     }

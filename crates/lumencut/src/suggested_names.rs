@@ -4,6 +4,7 @@
 mod branches;
 mod given;
 mod graph;
+mod legs;
 mod neck;
 mod trunk;
 mod veins;

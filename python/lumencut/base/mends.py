@@ -10,7 +10,7 @@ from lumencut.base.pickles import by_name
 
 MendName: TypeAlias = Literal[
     "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels", "doubtful", "smaller_radius",
-    "coordinates", "unit", "place", "reading", "reorder",
+    "other_patient", "coordinates", "unit", "place", "reading", "reorder",
     "series", "phase", "fill_gaps", "resample_slices", "resample_and_fill",
 ]  # fmt: skip
 
@@ -71,9 +71,9 @@ class Mend:
     ----------
     name : str
         The same on every host: "bridge", "every_second", "cpu", "windows", "threshold", "fewer_pixels",
-        "doubtful" and "smaller_radius" of tracing, devices and volumes; "coordinates", "unit", "place",
-        "reading" and "reorder" of centerlines; "series", "phase", "fill_gaps", "resample_slices" and
-        "resample_and_fill" of DICOM.
+        "doubtful" and "smaller_radius" of tracing, devices and volumes; "other_patient" of comparing;
+        "coordinates", "unit", "place", "reading" and "reorder" of centerlines; "series", "phase",
+        "fill_gaps", "resample_slices" and "resample_and_fill" of DICOM.
     values : tuple of str
         The choices, such as units or phases; empty if there are none.
     """
@@ -135,6 +135,7 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
     "fewer_pixels": _fewer_pixels,
     "doubtful": lambda _: ("look at the doubtful ones in the viewer",),
     "smaller_radius": lambda _: ("ask for a smaller radius",),
+    "other_patient": lambda _: ("insist with ", Option("other_patient", value=True)),
     "coordinates": lambda values: _one_of("coordinates", values),
     "unit": lambda values: _one_of("unit", values),
     "place": _place,

@@ -106,7 +106,7 @@ def save_sheet(
 
     `about` holds a short title, a description of how the sheet was made, and the settings.
     """
-    from lumencut.pictures.frame import save_picture
+    from lumencut.pictures.picture_file import save_picture
 
     if not is_object(path) or volume is None:
         save_picture(image, path)

@@ -182,6 +182,7 @@ def _measured(
     voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
 ) -> list[MeasuredVessel]:
     """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""
+    from lumencut.measuring.line_by_hand import with_line_by_hand
     from lumencut.measuring.measured_vessel import MeasuredVessel
     from lumencut.measuring.sections import measure as library
     from lumencut.tracing.suggested_names import suggest_names
@@ -201,6 +202,8 @@ def _measured(
                 part = partial(_report_share, progress, number - 1, len(vessels))
                 how = {"tree": tree, "wall": chosen["wall"], "progress": part}
                 profile = library(voxels, vessel, chosen["step"], fwhm, **how)
+                if session and ids in session.by_hand:
+                    profile = with_line_by_hand(profile, vessel, session.by_hand[ids])
                 if marked.at is not None:
                     _refuse(profile, marked.at, marked)
                 made = MeasuredVessel.of(ids, vessel, profile, marks_of.get(ids, marked))

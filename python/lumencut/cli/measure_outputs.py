@@ -113,7 +113,7 @@ def _title(one: MeasuredVessel) -> str:
 
 
 def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel]) -> None:
-    from lumencut.pictures.frame import save_picture
+    from lumencut.pictures.picture_file import save_picture
     from lumencut.reports.section_pictures import SectionView, sections_sheet
     from lumencut.scene.window import Window
 

@@ -18,7 +18,7 @@ from lumencut.files.centerline_writers import write_centerlines
 from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
 from lumencut.measuring.sections import measure
 from lumencut.pictures.contact_sheet import contact_sheet
-from lumencut.pictures.frame import save_picture
+from lumencut.pictures.picture_file import save_picture
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.planar_reformation import CprRequest
 from lumencut.reports.measure_report import report

@@ -183,25 +183,14 @@ def compare_scans(
             raise MeasuringError(what, type(given).__name__, "a Profile")
     checked = [tuple(numbers(MeasuringError, "pair of places", pair, (2,)).tolist()) for pair in pairs]
     both = (earlier._core, later._core)
-    doubts = _doubts(earlier, later, other_patient=other_patient)
-    return Comparison(_lumencut.compare_scans(both, checked, vessel, scans, doubts))
+    stated = (_stated(earlier), _stated(later))
+    return Comparison(_lumencut.compare_scans(both, checked, vessel, scans, stated, other_patient))
 
 
-def _doubts(earlier: Profile, later: Profile, *, other_patient: bool) -> list[str]:
-    """Return doubts about comparing two scans; reject those of two patients."""
-    studies = [None if one._origin is None else one._origin.study for one in (earlier, later)]
-    first, second = (Patient() if study is None else Patient.in_header(study.header) for study in studies)
-    doubts = []
-    if first.differs_from(second):
-        if not other_patient:
-            mend = "choose two scans of one patient, or insist with other_patient=True or --other-patient"
-            raise MeasuringError("scans to compare", f"{first} and {second}", "scans of one patient", mend)
-        doubts.append(f"the scans are of two patients: {first} and {second}")
-    elif not first.is_comparable(second):
-        doubts.append("at least one scan does not state its patient")
-    kinds = ["" if study is None else study.text("Modality") for study in studies]
-    if all(kinds) and kinds[0] != kinds[1]:
-        doubts.append(
-            f"the earlier scan is {kinds[0]}, the later one {kinds[1]}: a difference may come from the method"
-        )
-    return doubts
+def _stated(profile: Profile) -> tuple[str, str, str]:
+    """Return patient ID, issuer and modality of the scan; empty where its file states nothing."""
+    study = None if profile._origin is None else profile._origin.study
+    if study is None:
+        return "", "", ""
+    patient = Patient.in_header(study.header)
+    return patient.id, patient.issuer, study.text("Modality")

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from lumencut.dicom.writing.codes import DISTAL_REFERENCE, LUMEN_MINIMUM, PROXIMAL_REFERENCE, Coded
 from lumencut.errors import MeasuringError
+from lumencut.measuring.flags import Flag
 from lumencut.measuring.profile_numbers import ProfileNumbers
 from lumencut.measuring.profile_sections import Mark
 from lumencut.measuring.stenosis import Stenosis
@@ -30,6 +31,8 @@ class Place:
         The place of the nearest measured section (mm).
     contour : numpy.ndarray, shape (m, 3)
         The wall of the lumen (mm, LPS).
+    flags : Flag
+        The flags of the section, such as a contour by hand.
     equivalent, uncertainty : float
         The diameter of a circle of the same area, and its standard deviation (mm).
     mean, shortest, longest : float
@@ -42,6 +45,7 @@ class Place:
     marked: float
     arc_length: float
     contour: npt.NDArray[np.float64]
+    flags: Flag
     equivalent: float
     uncertainty: float
     mean: float
@@ -66,6 +70,8 @@ class Measured:
         The marked sections.
     stenoses : tuple of Stenosis
         Its graded stenoses.
+    flags : Flag
+        The flags of all its sections together.
     """
 
     name: str | None
@@ -73,6 +79,7 @@ class Measured:
     length: float
     places: tuple[Place, ...]
     stenoses: tuple[Stenosis, ...]
+    flags: Flag
 
 
 def measured(
@@ -117,7 +124,8 @@ def measured(
     vessel = vessel or profile._vessel
     if vessel is None:
         raise MeasuringError("profile of the report", "a profile without its vessel", "one of measure")
-    return Measured(vessel.name, vessel.points, vessel.length, places, tuple(stenoses))
+    flags = Flag(int(np.bitwise_or.reduce(profile.flags)))
+    return Measured(vessel.name, vessel.points, vessel.length, places, tuple(stenoses), flags)
 
 
 def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
@@ -135,4 +143,5 @@ def _place(profile: ProfileNumbers, at: float, kind: Coded) -> Place:
     number = profile._core.nearest(at)
     names = ("diameter_equivalent", "uncertainty", "diameter_mean", "diameter_min", "diameter_max", "area")
     values = (float(getattr(profile, name)[number]) for name in names)
-    return Place(kind, at, float(profile.arc_length[number]), profile.contour[number], *values)
+    flags = Flag(int(profile.flags[number]))
+    return Place(kind, at, float(profile.arc_length[number]), profile.contour[number], flags, *values)

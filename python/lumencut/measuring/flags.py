@@ -42,3 +42,5 @@ class Flag(IntFlag):
     PLAQUE = 1024
     #: A reader drew the contour in the viewer.
     BY_HAND = 2048
+    #: A reader moved the centerline in the viewer.
+    LINE_BY_HAND = 4096

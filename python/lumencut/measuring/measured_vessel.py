@@ -120,15 +120,17 @@ class MeasuredVessel:
 
     @property
     def _not_suggested(self) -> tuple[str, ...]:
-        """Why no place is suggested in addition to the marked ones; empty if a reference is marked too."""
-        marked = [mark.arc_length for mark in self.marks if not mark.is_suggestion]
-        at = marked[0] if marked else None
-        return () if len(marked) > 1 else self.profile.not_suggested(at)
+        """Why no place is suggested in addition to the marked ones, or a narrower place is not."""
+        marked = [mark for mark in self.marks if not (mark.is_suggestion or mark.is_noted)]
+        references = [mark.arc_length for mark in marked if mark.is_reference]
+        places = [mark.arc_length for mark in marked if not mark.is_reference]
+        at = places[0] if places else None
+        return tuple(_lumencut.not_suggested_places(self.profile._core, at, references))
 
     @property
     def lines(self) -> list[str]:
         """The findings as lines: each percentage with its method, its references and diameters in mm."""
-        lines = [] if self._grade is None else self._grade.lines
+        lines = [] if self._grade is None else self._grade.lines(self.profile._core)
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
         core, suggested = self.profile._core, self._suggested_name

@@ -12,7 +12,7 @@ from lumencut.base.paths import WRITABLE, checked_path, write_text
 from lumencut.errors import FormatError
 from lumencut.measuring.profile_numbers import ProfileNumbers
 from lumencut.measuring.stenosis import Stenosis
-from lumencut.pictures.frame import check_dicom_alone
+from lumencut.pictures.picture_file import check_dicom_alone
 
 NOTICE = _lumencut.MEASURING_NOTICE
 

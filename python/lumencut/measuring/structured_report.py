@@ -16,11 +16,16 @@ from lumencut.dicom.writing.objects import LO, RESEARCH, ST, Kind, Target, cut, 
 from lumencut.dicom.writing.uids import uid_of
 from lumencut.errors import FormatError, MissingPackageError
 from lumencut.measuring.dicom_profile import Measured, Place
+from lumencut.measuring.flags import Flag
 from lumencut.measuring.stenosis import Stenosis
 from lumencut.scene.study import Study
 
 #: Attributes of highdicom's document that are not copied: it names the scanner's maker as the report's maker.
 _OF_HIGHDICOM = ("ContributingEquipmentSequence", "InstanceCreationDate", "InstanceCreationTime")
+_BY_HAND = (
+    (Flag.BY_HAND, "Contour by hand: the reader drew it"),
+    (Flag.LINE_BY_HAND, "Centerline by hand: the reader moved it"),
+)
 _REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
 
 
@@ -105,13 +110,15 @@ class _Vessel:
         """Return a section with its contour (TID 1410)."""
         from highdicom.sr import ImageRegion3D, PlanarROIMeasurementsAndQualitativeEvaluations
 
-        return PlanarROIMeasurementsAndQualitativeEvaluations(
+        group = PlanarROIMeasurementsAndQualitativeEvaluations(
             self._tracked(f"{place.kind[2]} at {place.arc_length:.1f} mm"),
             referenced_region=ImageRegion3D("POLYGON", _outline(place), self._frame),
             finding_type=_code(place.kind),
             finding_sites=self._sites,
             measurements=_measurements(place),
         )
+        _say_by_hand(group, place.flags)
+        return group
 
     def _stenosis(self, one: Stenosis) -> Any:
         """Return a percentage with its method (TID 1501) and the doubts about it."""
@@ -157,12 +164,21 @@ class _Vessel:
             _unit("mm"),
             referenced_coordinates=[line],
         )
-        return MeasurementsAndQualitativeEvaluations(
+        group = MeasurementsAndQualitativeEvaluations(
             self._tracked("centerline"),
             finding_type=_code(codes.CENTERLINE),
             finding_sites=self._sites,
             measurements=[length],
         )
+        _say_by_hand(group, self._one.flags & Flag.LINE_BY_HAND)
+        return group
+
+
+def _say_by_hand(group: Any, flags: Flag) -> None:
+    """Add a sentence for a contour and for a centerline that the reader made by hand."""
+    for flag, words in _BY_HAND:
+        if flags & flag:
+            _comment(group, words)
 
 
 def _outline(place: Place) -> npt.NDArray[np.float64]:

@@ -18,8 +18,8 @@ from lumencut.base.checks import flag, number
 from lumencut.base.paths import WRITABLE, checked_path, move, private_folder, replace_whole
 from lumencut.base.wording import a
 from lumencut.errors import FileError, FormatError, MissingPackageError, SettingsError
-from lumencut.pictures.frame import check_dicom_alone
 from lumencut.pictures.moving_pictures import Apng, MovingPicture, WebP
+from lumencut.pictures.picture_file import check_dicom_alone
 
 if TYPE_CHECKING:
     from lumencut.pictures.frame import Frame

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,16 +16,14 @@ from lumencut.base.checks import flag
 from lumencut.base.paths import WRITABLE, checked_path, replace_whole
 from lumencut.base.pickles import by_name
 from lumencut.base.values import KeepsReadOnly
-from lumencut.errors import FormatError, SettingsError, VolumeError
+from lumencut.errors import SettingsError, VolumeError
 from lumencut.pictures.frame_source import FrameSource
+from lumencut.pictures.picture_file import check_dicom_alone, check_values, picture_as_png, save_picture
 from lumencut.scene.camera import Camera
 
 if TYPE_CHECKING:
     from lumencut.dicom.writing.picture import Picture
     from lumencut.scene.study import Study
-
-#: Formats of Pillow without transparency.
-_OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
 IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 
@@ -369,53 +366,3 @@ class Frame(KeepsReadOnly):
         arrays: dict[str, Any] = {name: getattr(self, name) for name in _IMAGES if self.has(name)}
         with path.open("wb") as file:
             np.savez_compressed(file, **arrays)
-
-
-def check_dicom_alone(path: Path, **given: Any) -> None:
-    """Reject options that only DICOM files support if the file has another format."""
-    for name, value in given.items():
-        if value is not None and value is not False:
-            found = f"{value!r}, with the extension {path.suffix!r}"
-            raise SettingsError(name, found, "the extension .dcm", f"leave out {name} for other files")
-
-
-def check_values(annotate: bool, compress: bool) -> None:
-    """Reject options that do not apply to values."""
-    for name, value in (("annotate", annotate), ("compress", compress)):
-        if value:
-            raise SettingsError(name, "True with values", "False, for values", "write a picture as well")
-
-
-def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
-    """Return an RGBA picture as the content of a PNG file."""
-    from PIL import Image
-
-    content = io.BytesIO()
-    Image.fromarray(image).save(content, format="PNG")
-    return content.getvalue()
-
-
-def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str, Any] | None = None) -> None:
-    """Write an RGBA picture in the format of the extension; a PNG gets metadata."""
-    from PIL import Image
-
-    expected = "a picture format such as .png, .tif or .webp"
-    kind = Image.registered_extensions().get(path.suffix.lower())
-    if kind is None or kind not in Image.SAVE:
-        raise FormatError(str(path), f"the extension {path.suffix!r}", expected)
-    picture = Image.fromarray(image)
-    if kind in _OPAQUE:
-        picture = picture.convert("RGB")
-
-    options = png_options or {} if kind == "PNG" else {}
-
-    def write(temporary: Path) -> None:
-        try:
-            picture.save(temporary, format=kind, **options)
-        except (OSError, ValueError) as error:
-            # Errors of the system have a number; errors of Pillow about what a format cannot hold have none.
-            if isinstance(error, OSError) and error.errno is not None:
-                raise
-            raise FormatError(str(path), f"{kind}: {error}", expected) from error
-
-    replace_whole(path, write)

@@ -14,7 +14,7 @@ from lumencut import _lumencut
 from lumencut.base.checks import flag, numbers
 from lumencut.base.paths import WRITABLE, checked_path, replace_whole
 from lumencut.errors import CameraError, SettingsError
-from lumencut.pictures.frame import check_dicom_alone, picture_as_png, save_picture
+from lumencut.pictures.picture_file import check_dicom_alone, picture_as_png, save_picture
 from lumencut.pictures.renderer import Renderer
 from lumencut.scene.checked_settings import checked
 from lumencut.scene.settings import Settings

@@ -15,7 +15,7 @@ from lumencut.base.mends import advised
 from lumencut.base.paths import WRITABLE, checked_path
 from lumencut.errors import CameraError
 from lumencut.files.volume_writers import write_volume
-from lumencut.pictures.frame import check_dicom_alone
+from lumencut.pictures.picture_file import check_dicom_alone
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.checks import check_vessel
 from lumencut.reformations.planar_reformation import CprRequest, PlanarReformation, one_angle

@@ -11,7 +11,7 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut.measuring.measured_vessel import MeasuredVessel
 from lumencut.measuring.profile_sections import nearest
-from lumencut.pictures.frame import picture_as_png
+from lumencut.pictures.picture_file import picture_as_png
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.planar_reformation import CprRequest
 from lumencut.reports.section_pictures import SectionView

@@ -52,7 +52,7 @@ def as_volume(image: Any) -> Volume:
     if convert is None:
         raise VolumeError("image", f"{type(image).__module__}.{type(image).__name__}", _ACCEPTED)
     volume = convert(image)
-    doubt = _lumencut.doubted_size(volume.size, volume.world_from_index[:3].tolist())
+    doubt = _lumencut.doubted_grid(volume.size, volume.world_from_index[:3].tolist())
     if doubt and convert is not _from_pydicom:
         _log.warning("%s: %s", type(image).__name__, doubt)
     return volume

@@ -15,6 +15,7 @@ from lumencut.scene.slab import Slab
 from lumencut.scene.transfer import TransferFunction
 from lumencut.scene.window import Opacity, Window
 
+DistanceRuleName: TypeAlias = Literal["local", "whole curve"]
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
@@ -30,6 +31,10 @@ class Settings(CheckedSettings):
     ----------
     cost_weight : float, 0 to 10000, default 10
         λ of Eq. 2: the cost of one mm beyond the wall of a vessel (mm of depth per mm).
+    distance_rule : {"local", "whole curve"}, default "local"
+        Distance that the cost counts (name): to the piece of the vessel that a pixel could show
+        (``local``), or to the entire vessel as in Eq. 2 (``whole curve``). With ``whole curve``, a vessel
+        that crosses itself hides its farther part. Slow; not with ``lumen_first``.
     preserve_lumen : bool, default True
         Measure distances from the vessel wall instead of the centerline. When off, every vessel counts as
         having no radius; ``lumen_first`` then uses ``unknown_radius``.
@@ -135,6 +140,7 @@ class Settings(CheckedSettings):
     """
 
     cost_weight: float = 10.0
+    distance_rule: DistanceRuleName = "local"
     preserve_lumen: bool = True
     lumen_first: bool = True
     lumen_margin: float = 1.0

@@ -83,7 +83,7 @@ class VolumeFile:
     def checked(self) -> VolumeFile:
         """Reject a grid that no volume can have before any voxel is read, and note a doubtful size."""
         _placed(self, np.zeros((1, 1, 1), np.uint8))
-        doubt = _lumencut.doubted_size(self.size, self.world_from_index[:3].tolist())
+        doubt = _lumencut.doubted_grid(self.size, self.world_from_index[:3].tolist())
         if doubt and doubt not in self.notes:
             self.notes.append(doubt)
         return self

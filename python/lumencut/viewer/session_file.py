@@ -7,7 +7,7 @@ also holds colours, marks and the view; this module reads them. The core checks 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,8 @@ class SessionFile:
         estimated.
     contours : int
         The number of contours that the reader drew.
+    by_hand : dict
+        By id, whether the reader moved each point of a vessel's line.
     """
 
     path: Path
@@ -53,6 +55,7 @@ class SessionFile:
     hidden: tuple[int, ...]
     fwhm: float | None
     contours: int = 0
+    by_hand: dict[str, list[bool]] = field(default_factory=dict)
 
 
 def is_session_file(path: Path) -> bool:
@@ -88,7 +91,8 @@ def read_session(path: str | Path) -> SessionFile:
     shown = len(vessels) - len(hidden)
     recipe = None if view is None else _recipe(place, view, shown)
     contours = sum(len(vessel.get("contours_mm", ())) for vessel in vessels)
-    return SessionFile(place, recipe, marks, hidden, session["fwhm_mm"], contours)
+    by_hand = {str(n): vessel["by_hand"] for n, vessel in enumerate(vessels) if "by_hand" in vessel}
+    return SessionFile(place, recipe, marks, hidden, session["fwhm_mm"], contours, by_hand)
 
 
 def _marked(marks: dict[str, Any] | None) -> Marked:

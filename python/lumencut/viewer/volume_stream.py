@@ -49,6 +49,7 @@ def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
         "states_orientation": file.states_orientation,
         "filled_slices": list(file.filled),
         "has_study": file.study is not None,
+        "identity": _identity(file),
         "scan": _scan_record(file.scan),
         "notes": list(notes),
     }
@@ -56,6 +57,12 @@ def header(file: VolumeFile, read_type: np.dtype[Any]) -> bytes:
     before = len(_MAGIC) + 4
     text += b" " * (-(before + len(text)) % _ALIGNMENT)
     return _MAGIC + len(text).to_bytes(4, "little") + text
+
+
+def _identity(file: VolumeFile) -> dict[str, str]:
+    """Patient and modality, by which the page compares the scan with another one."""
+    modality = "" if file.study is None else file.study.text("Modality")
+    return {"patient": file.patient.id, "issuer": file.patient.issuer, "modality": modality}
 
 
 def _scan_record(scan: ScanDetails) -> dict[str, Any]:

@@ -1,5 +1,13 @@
 /** Types of messages between page and worker. Those of the engine are generated (`generated/questions.ts`). */
-import type { DoubtRow, LookRow, Picture, Questions, RegionRow, SettingRow } from './generated/questions';
+import type {
+  DoubtRow,
+  LookRow,
+  Picture,
+  Questions,
+  RegionRow,
+  ScanIdentity,
+  SettingRow,
+} from './generated/questions';
 import type { SAVED_CENTERLINES } from './generated/tables';
 
 export type * from './generated/questions';
@@ -82,6 +90,7 @@ export interface Asked {
 export interface ServedScan {
   readonly isServed: true;
   readonly hasStudy: boolean;
+  readonly identity: ScanIdentity | null;
 }
 
 export interface ReadScan {
@@ -90,6 +99,7 @@ export interface ReadScan {
   readonly header: Uint8Array<ArrayBuffer>;
   readonly instances: readonly string[];
   readonly studyCount: number;
+  readonly identity: ScanIdentity;
 }
 
 export type ScanStudy = ServedScan | ReadScan;

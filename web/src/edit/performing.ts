@@ -8,6 +8,7 @@ import { editQueue } from '../state/edit-queue';
 import { redo, undo } from '../state/history';
 import { isListOpen, toggleList } from '../state/panels';
 import { escapeQuestion } from '../state/questions';
+import { showLineGrips } from '../state/reshaping';
 import { pickedId } from '../state/shown';
 import {
   crossHair,
@@ -129,7 +130,7 @@ function cancelEdit(): boolean {
     return true;
   }
   aimAt(null);
-  if (showGrips(false)) {
+  if (showGrips(false) || showLineGrips(false)) {
     return true;
   }
   if (editQueue.isBusy) {

@@ -4,7 +4,7 @@ import { Failure } from '../core/failure';
 import type { Edited } from '../core/generated/questions';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
-import { jumpTo } from '../state/cross-hair';
+import { jumpTo, moveCrossHair } from '../state/cross-hair';
 import {
   addComing,
   anchor,
@@ -212,8 +212,13 @@ export function takeWhole(): boolean {
     endVessel();
     const then = ({ added: [id] }: Edited) => pickWhenShown(id);
     void commit({ kind: 'add_whole_vessel', click }, { then }).then((answer) => {
-      const isLeft = answer === null && editQueue.state.refusal?.failure.advice !== '';
-      if (isLeft && !isDrawing.value && tool.value === 'trace') {
+      if (answer !== null || isDrawing.value || tool.value !== 'trace') {
+        return;
+      }
+      if (editQueue.state.refusal?.failure.advice === '') {
+        // The vessel is there already: it is picked.
+        moveCrossHair(click, 'turning');
+      } else {
         suspect = click;
         setFirst(click);
       }

@@ -50,6 +50,7 @@ export type Action =
   | 'report'
   | 'best view'
   | 'turn about place'
+  | 'turn planes'
   | 'turn'
   | 'help'
   | 'pane'
@@ -168,6 +169,7 @@ export const BINDINGS: readonly Binding[] = [
   pane('turning', 'Drag to the side', 'while turning about a place: rotate the cut around it'),
   pane('flat', 'Up and down', 'scroll'),
   pane('flat', 'Page up and down', 'scroll by ten'),
+  pane('flat', 'Left and right', 'turn the planes of the other slices by 5°, while their lines are shown'),
   pane('flat', '+ and -', 'zoom'),
   pane('marks', 'Arrow keys', 'move the marker along the vessel, with Shift ten times as far'),
   pane('marks', 'Enter', 'confirm a suggested place'),
@@ -199,6 +201,7 @@ export const BINDINGS: readonly Binding[] = [
   key('e', 'report', 'report the findings on all vessels, or return to the previous layout'),
   key('f', 'best view', 'best view of the picked vessel'),
   key('o', 'turn about place', 'start or stop turning the view about the vessel at the section'),
+  key('x', 'turn planes', 'show or hide the lines of the planes in the slices, to turn and move them'),
   key(' ', 'turn', 'start or stop a slow rotation'),
   key('t', 'trace', 'start or stop tracing vessels by clicks'),
   key('w', 'whole vessel', 'while tracing, trace the whole vessel at the clicked point'),
@@ -236,6 +239,13 @@ export function actionOfKey(name: string, modifier: Modifier = ''): Action | nul
   const rowOf = (key: string) =>
     BINDINGS.find((row) => row.gesture === 'key' && row.key === key && (row.modifier ?? '') === modifier);
   return (rowOf(name) ?? rowOf(name.toLowerCase()))?.action ?? null;
+}
+
+/** The key that the user means: Shift makes capitals, Caps Lock does not. */
+export function keyOf({ key, shiftKey }: Pick<KeyboardEvent, 'key' | 'shiftKey'>): string {
+  const [small, capital] = [key.toLowerCase(), key.toUpperCase()];
+  const isLetter = key.length === 1 && small !== capital;
+  return isLetter ? (shiftKey ? capital : small) : key;
 }
 
 export function inputName(row: Binding): string {

@@ -14,7 +14,7 @@ import { currentProfile, currentVessel } from './current';
 
 /** Number of contour points from one grip to the next. */
 const GRIP_STEP = 4;
-const COLOR = '#00e5ff';
+const COLOR = '#b4ff39';
 
 interface ContourGripsProps {
   readonly plane: Plane;

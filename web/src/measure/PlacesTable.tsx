@@ -3,7 +3,9 @@
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
 import { moveTo } from '../state/cross-hair';
+import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
+import { answers } from '../state/measuring';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
 import { currentMarks, currentPlaces, currentVessel } from './current';
@@ -41,7 +43,7 @@ export function PlacesTable({ profile }: ProfileProps) {
           {doubts.length > 0 && <small title={meanings(profile, doubts)}>{doubts.join(', ')}</small>}
         </div>
       )}
-      {marks && marks.at === null && marks.references.length === 0 && <NotSuggested profile={profile} />}
+      {marks && <NotSuggested marks={marks} profile={profile} />}
       <TurnButton />
     </section>
   );
@@ -68,8 +70,11 @@ function NotMeasured({ profile }: ProfileProps) {
   );
 }
 
-/** Why no place, or a wider one, is suggested; a narrower place is one click away. */
-function NotSuggested({ profile: { not_suggested: reasons, passed_over: narrower } }: ProfileProps) {
+/** Why no place, or a wider one, is suggested or marked; a narrower place is one click away. */
+function NotSuggested({ marks, profile }: ProfileProps & { readonly marks: VesselMarks }) {
+  const { not_suggested: suggesting, passed_over: narrower } = profile;
+  const isMarked = marks.at !== null || marks.references.length > 0;
+  const reasons = isMarked ? [answers.value.narrower].filter((words) => words !== null) : suggesting;
   return reasons.length > 0 ? (
     <p data-testid="not-suggested">
       {reasons.map(withKnownUnits).join(' ')}{' '}

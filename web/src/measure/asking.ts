@@ -133,7 +133,7 @@ export function unlessGone(error: unknown): null {
 }
 
 export async function asked(line: LineId, profile: Profile, marks: VesselMarks): Promise<Answers> {
-  const [suggested, { stenosis, not_graded }, stretches] = await Promise.all([
+  const [suggested, { stenosis, not_graded, narrower }, stretches] = await Promise.all([
     offeredBeside(line, marks),
     engine.ask('grade', { line, marks }),
     stretchesOf(line, marks),
@@ -144,7 +144,7 @@ export async function asked(line: LineId, profile: Profile, marks: VesselMarks):
     stenosis || !compared
       ? (stenosis?.doubts ?? [])
       : await engine.ask('doubts', { line, compared: { at: compared.at, references, method: marks.method } });
-  return { suggested, stenosis, notGraded: not_graded, doubts, ...stretches };
+  return { suggested, stenosis, notGraded: not_graded, narrower, doubts, ...stretches };
 }
 
 async function offeredBeside(line: LineId, marks: VesselMarks): Promise<Suggested> {

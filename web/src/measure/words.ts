@@ -35,9 +35,9 @@ export function withKnownUnits(words: string): string {
 
 export const stenosisWords = (stenosis: Stenosis): string => withKnownUnits(stenosis.words);
 
-/** Text shown in place of a missing percentage. A null reason means that the engine has not answered yet. */
+/** Text shown in place of a missing percentage: the diameter and the reason; null until the engine has answered. */
 export const notGradedWords = ({ notGraded }: { readonly notGraded: string | null }): string =>
-  notGraded === null ? 'Grading…' : `No percentage: ${withKnownUnits(notGraded)}`;
+  notGraded === null ? 'Grading…' : withKnownUnits(notGraded);
 
 export function placeName({ kind, slot, isSuggestion, isConfirmed, isBefore }: VesselPlace): string {
   const end = slot === 0 ? 'start' : 'end';

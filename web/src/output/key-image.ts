@@ -17,6 +17,10 @@ const WIDTH = COLUMNS * SIDE;
 /** Largest height of the vessel picture, and line height of text (pixels). */
 const MAX_VESSEL_HEIGHT = 260;
 const LINE = 36;
+/** Largest size of letters (pixels), which the page shows at about half of it. */
+const LETTERS = 28;
+/** The label of a section: its name, and below it the diameter. */
+const LABEL = 2 * LINE;
 
 export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   const profile = await profileOfLine(finding.line);
@@ -26,20 +30,21 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
   const scale = Math.min(WIDTH / strip.width, MAX_VESSEL_HEIGHT / strip.height);
   const [width, height] = [strip.width * scale, strip.height * scale];
   const rows = Math.ceil(places.length / COLUMNS);
-  const [canvas, context] = canvasOf(WIDTH, Math.ceil(LINE + height + rows * (SIDE + LINE)));
+  const [canvas, context] = canvasOf(WIDTH, Math.ceil(LINE + height + rows * (SIDE + LABEL)));
   context.fillStyle = '#000';
   context.fillRect(0, 0, canvas.width, canvas.height);
-  words(context, finding.name || `vessel ${finding.vessel + 1}`, [8, LINE - 11], '#fff');
+  words(context, finding.name || `vessel ${finding.vessel + 1}`, [8, LINE - 9], '#fff');
   context.drawImage(strip, 0, LINE, width, height);
   for (const place of places) {
     line(context, { place, x: (place.at / plan.spacing + 0.5) * scale, height });
   }
   for (const [number, place] of places.entries()) {
     const pair = await sectionPair({ ...finding, spacing: plan.section_spacing }, profile, place.at);
-    const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LINE)];
-    const label = `${place.name} ${diameterAt(profile, place.at)}`;
-    words(context, label, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);
-    context.drawImage(pair, 0, 0, SIDE, SIDE, x, y + LINE, SIDE, SIDE);
+    const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LABEL)];
+    for (const [n, label] of [place.name, diameterAt(profile, place.at)].entries()) {
+      words(context, label, [x + 8, y + (n + 1) * LINE - 9], colorOfPlace(place), SIDE - 16);
+    }
+    context.drawImage(pair, 0, 0, SIDE, SIDE, x, y + LABEL, SIDE, SIDE);
   }
   return canvas;
 }
@@ -66,10 +71,10 @@ function words(
   color: string,
   widest = WIDTH - 16,
 ): void {
-  context.font = '600 20px system-ui, sans-serif';
+  context.font = `600 ${LETTERS}px system-ui, sans-serif`;
   const wide = context.measureText(text).width;
   if (wide > widest) {
-    context.font = `600 ${fittingSize(20, wide, widest)}px system-ui, sans-serif`;
+    context.font = `600 ${fittingSize(LETTERS, wide, widest)}px system-ui, sans-serif`;
   }
   context.fillStyle = color;
   context.fillText(text, x, y, widest);

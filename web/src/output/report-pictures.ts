@@ -18,7 +18,7 @@ import type {
 import { pixelOn } from '../core/planes';
 import { lyingPicture } from '../measure/layout';
 import { colorOfPlace } from '../measure/PlaceHandles';
-import { contours } from '../measure/SectionMarks';
+import { contours, isByHand } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -106,17 +106,20 @@ export async function sectionPair(
   context.putImageData(pixels, 0, 0);
   context.putImageData(pixels, SIDE, 0);
   context.lineWidth = 2.5;
-  for (const { points, color, isDashed } of contours(section, profile.counts[number] === true)) {
+  for (const { points, color, dashes } of contours(section, profile)) {
     context.beginPath();
     for (const [x, y] of points.map((point) => pixelOn(plane, point))) {
       context.lineTo(x + 0.5, y + 0.5);
     }
     context.closePath();
-    context.setLineDash(isDashed ? [8, 6] : []);
+    context.setLineDash([...dashes]);
     context.strokeStyle = color;
     context.stroke();
   }
   context.setLineDash([]);
+  if (isByHand(profile, number)) {
+    write(context, 'contour by hand', [6, 30]);
+  }
   const { bar, letters } = await engine.ask('labels', { ...plane, width: SIDE });
   const { spacing: hasSpacing, orientation } = store.states.value;
   for (const left of [0, SIDE]) {

@@ -23,6 +23,8 @@ interface FlatPictureProps {
   readonly onSize?: (size: Pair) => void;
   /** Called by arrow keys in place of scrolling, with steps right and down: 1, or 10 with Shift. */
   readonly onArrow?: ((by: Pair) => void) | undefined;
+  /** Called by the keys to the left and right, unless `onArrow` is, with steps: -1 or 1, or 10 with Shift. */
+  readonly onTurn?: ((steps: number) => void) | undefined;
   readonly children?: ComponentChildren;
 }
 
@@ -36,6 +38,7 @@ export function FlatPicture({
   isLate,
   onSize,
   onArrow,
+  onTurn,
   children,
 }: FlatPictureProps) {
   const pane = useRef<HTMLDivElement>(null);
@@ -109,7 +112,7 @@ export function FlatPicture({
       role="application"
       aria-label={words}
       tabIndex={0}
-      onKeyDown={(event) => pressed(event, handlers, onArrow)}
+      onKeyDown={(event) => pressed(event, handlers, { onArrow, onTurn })}
     >
       <canvas
         ref={canvas}
@@ -125,16 +128,25 @@ export function FlatPicture({
   );
 }
 
-/** Arrow keys scroll or move the cross-hair; + and - zoom. Focused children handle their own keys. */
-function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) => void): void {
+/** Arrow keys scroll, turn or move the cross-hair; + and - zoom. Focused children handle their own keys. */
+function pressed(
+  event: KeyboardEvent,
+  handlers: Handlers,
+  { onArrow, onTurn }: Pick<FlatPictureProps, 'onArrow' | 'onTurn'>,
+): void {
   if (event.target !== event.currentTarget) {
     return;
   }
   const arrow = arrowOf(event.key);
+  const far = event.shiftKey ? GESTURES.far_steps : 1;
   if (arrow && onArrow) {
     event.preventDefault();
-    const far = event.shiftKey ? GESTURES.far_steps : 1;
     onArrow([arrow[0] * far, arrow[1] * far]);
+    return;
+  }
+  if (arrow?.[0] && onTurn) {
+    event.preventDefault();
+    onTurn(arrow[0] * far);
     return;
   }
   const steps = scrollOfKey(event.key, onArrow && !event.shiftKey ? 1 : GESTURES.far_steps);

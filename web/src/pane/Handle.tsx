@@ -9,6 +9,8 @@ export interface HandleProps {
   readonly words: string;
   readonly color: string;
   readonly kind: string;
+  readonly style?: Readonly<Record<string, string>>;
+  readonly isReachable?: boolean;
   onBegin?(): void;
   /** Called with the pointer position during a drag (CSS pixels from the top left of the overlay). */
   onDrag(at: Pair): void;
@@ -88,7 +90,8 @@ export function Handle(props: HandleProps) {
     <button
       type="button"
       class={`handle ${props.kind}`}
-      style={{ left: `${props.at[0]}px`, top: `${props.at[1]}px`, '--color': props.color }}
+      tabIndex={props.isReachable === false ? -1 : 0}
+      style={{ ...props.style, left: `${props.at[0]}px`, top: `${props.at[1]}px`, '--color': props.color }}
       aria-label={props.words}
       title={props.words}
       onPointerDown={begin}

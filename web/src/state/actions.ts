@@ -4,15 +4,17 @@ import { batch } from '@preact/signals';
 import { panned, resized, spun, trackballed, turnedAbout, zoomed } from '../core/camera';
 import { GESTURES } from '../core/generated/tables';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
+import { STANDARD } from '../core/planes';
 import type { Action } from '../input/bindings';
 import { engine } from '../worker/engine';
 import { stopCine } from './cine';
 import { destination, flyToAnswer } from './flight';
-import { windowChanged } from './history';
+import { viewChanged, windowChanged } from './history';
 import { dropLength, isArriving } from './measuring';
 import { dragPlaceTurn, endPlaceTurn, placeTurn, togglePlaceTurn } from './place-turn';
 import { stopMeasuring } from './profiles';
 import { putRulerAway } from './rulers';
+import { showLines, toggleLines } from './slices';
 import * as store from './store';
 import { tool } from './tool';
 
@@ -156,6 +158,15 @@ export function showLayout(layout: store.Layout): void {
   });
 }
 
+/** Half of a window that is narrower than this has room for one view (CSS pixels). */
+const NARROW = 600;
+
+export function showOneIfNarrow(width: number): void {
+  if (width < NARROW) {
+    showLayout('one');
+  }
+}
+
 export function turnSlowly(angle: number): void {
   changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
 }
@@ -191,6 +202,9 @@ function performSimple(action: Action): void {
     case 'turn about place':
       void togglePlaceTurn();
       break;
+    case 'turn planes':
+      toggleLines();
+      break;
     case 'turn':
       store.isTurning.value = !store.isTurning.value;
       break;
@@ -217,6 +231,7 @@ function cancel(): void {
   stopMeasuring();
   stopCine();
   endPlaceTurn();
+  showLines(false);
   batch(() => {
     store.isHelpOpen.value = false;
     store.isTurning.value = false;
@@ -227,17 +242,16 @@ function cancel(): void {
 
 function reset(): void {
   const windows = store.report.value?.windows;
-  const window = store.window_.value;
+  const before = { window: store.window_.value, slices: store.slices.value };
   batch(() => {
     store.isInverted.value = false;
     store.isTurning.value = false;
     store.cprAngle.value = 0;
     store.cprRoll.value = null;
     store.resets.value += 1;
-    if (windows) {
-      store.window_.value = windows.main;
-      windowChanged(window);
-    }
+    store.slices.value = STANDARD;
+    store.window_.value = windows?.main ?? before.window;
+    viewChanged('reset the views', before);
   });
   void showNamedView('anterior');
 }

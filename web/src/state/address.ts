@@ -1,8 +1,10 @@
 /** The view in the address of the page: camera, window, settings and layout, but no data of the patient. */
 import { batch, effect } from '@preact/signals';
-import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
+import { areAxes, isNumber, isObject, isPositive, isVector, LARGEST } from '../core/checks';
+import type { Camera, Method, SettingRow, Settings, Slices, Vector } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
-import { dot, length } from '../core/vectors';
+import { STANDARD } from '../core/planes';
+import { slicesIn } from '../core/slices';
 import { destination } from './flight';
 import * as store from './store';
 
@@ -20,6 +22,7 @@ export interface ViewState {
   readonly place?: number;
   readonly angle?: number;
   readonly hair?: Vector;
+  readonly slices?: Slices;
   /** Identifies the grid of the scan, without its values. */
   readonly scan?: string;
 }
@@ -42,20 +45,9 @@ export function stateOf(fragment: string): ViewState | null {
   }
 }
 
-/** Largest accepted position (mm) or value; beyond it, rounding errors would matter. */
-const LARGEST = 1e6;
-/** Tolerance when checking that the axes of a camera are orthonormal. */
-const ROUNDING = 1e-3;
-
-const isNumber = (value: unknown): value is number => typeof value === 'number' && Math.abs(value) <= LARGEST;
-const isPositive = (value: unknown): value is number => isNumber(value) && value > 0;
-const isVector = (value: unknown): value is Vector =>
-  Array.isArray(value) && value.length === 3 && value.every(isNumber);
-const isObject = (value: unknown): value is Record<string, unknown> =>
-  value !== null && typeof value === 'object' && !Array.isArray(value);
-
 function checked(read: Record<string, unknown>): ViewState {
   const { camera, window, method, settings, layout, inverted, vessel, place, angle, hair, scan } = read;
+  const slices = slicesIn(read.slices);
   const isWindow =
     Array.isArray(window) && window.length === 2 && isNumber(window[0]) && isPositive(window[1]);
   return {
@@ -69,6 +61,7 @@ function checked(read: Record<string, unknown>): ViewState {
     ...(isNumber(place) && { place }),
     ...(isNumber(angle) && { angle }),
     ...(isVector(hair) && { hair }),
+    ...(slices && { slices }),
     ...(typeof scan === 'string' && { scan }),
   };
 }
@@ -79,17 +72,6 @@ function isCamera(value: unknown): value is NonNullable<ViewState['camera']> {
   }
   const { center, direction, up, pixel_spacing, height } = value;
   return isVector(center) && areAxes(direction, up) && isPositive(pixel_spacing) && isPositive(height);
-}
-
-function areAxes(direction: unknown, up: unknown): boolean {
-  const isZero = (number: number) => Math.abs(number) < ROUNDING;
-  return (
-    isVector(direction) &&
-    isVector(up) &&
-    isZero(length(direction) - 1) &&
-    isZero(length(up) - 1) &&
-    isZero(dot(direction, up))
-  );
 }
 
 export function currentState(): ViewState {
@@ -115,6 +97,7 @@ export function currentState(): ViewState {
     place: short(store.pickedPlace.value),
     angle: store.cprAngle.value,
     ...(hair && { hair: hair.point.map(short) as unknown as Vector }),
+    ...(store.slices.value !== STANDARD && { slices: store.slices.value }),
     scan: scanKey(),
   };
 }
@@ -150,6 +133,7 @@ export function restore(state: ViewState): boolean {
     store.layout.value = state.layout ?? store.layout.value;
     store.isInverted.value = state.inverted ?? store.isInverted.value;
     store.cprAngle.value = state.angle ?? store.cprAngle.value;
+    store.slices.value = state.slices ?? STANDARD;
     const count = store.report.value?.vessels?.length ?? 0;
     if (
       state.vessel !== undefined &&

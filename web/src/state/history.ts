@@ -1,16 +1,29 @@
-/** Undo and redo of changes to the document and the grey-value window. */
+/** Undo and redo of changes to the document, the grey-value window, and the planes of the slices. */
 import { batch, computed, signal } from '@preact/signals';
-import type { Window } from '../core/messages';
+import type { Slices, Window } from '../core/messages';
 import { type Document, EMPTY } from './document';
-import { window_ } from './store';
+import { slices, window_ } from './store';
 
 interface Step {
   /** Description of the step, such as `add a point`. */
   readonly words: string;
   readonly before: Document;
   readonly after: Document;
-  /** Present if the step changed the grey-value window, which is not part of the document. */
-  readonly window?: { readonly before: Window; readonly after: Window };
+  /** Present if the step changed the view, which is not part of the document. */
+  readonly view?: { readonly before: UndoneView; readonly after: UndoneView };
+}
+
+/** The part of the view that undo restores. */
+interface UndoneView {
+  readonly window: Window;
+  readonly slices: Slices;
+}
+
+const viewNow = (): UndoneView => ({ window: window_.value, slices: slices.value });
+
+function show({ window, slices: planes }: UndoneView): void {
+  window_.value = window;
+  slices.value = planes;
 }
 
 const past = signal<readonly Step[]>([]);
@@ -20,6 +33,13 @@ export const document_ = signal<Document>(EMPTY);
 
 /** The document as it was last saved or opened. Later changes would be lost on closing. */
 export const saved = signal<Document>(EMPTY);
+
+/** The document as the files of the scan gave it; to keep it would keep nothing of the user. */
+export const given = signal<Document>(EMPTY);
+
+export function setGiven(document: Document): void {
+  given.value = document;
+}
 
 export function markSaved(document: Document): void {
   saved.value = document;
@@ -43,10 +63,17 @@ export function change(words: string, after: Document): void {
   take({ words, before, after });
 }
 
-export function windowChanged(before: Window): void {
-  const [document, after] = [document_.value, window_.value];
-  if (after[0] !== before[0] || after[1] !== before[1]) {
-    take({ words: 'change the window', before: document, after: document, window: { before, after } });
+export const windowChanged = (before: Window): void =>
+  viewChanged('change the window', { ...viewNow(), window: before });
+
+export const slicesChanged = (words: string, before: Slices): void =>
+  viewChanged(words, { ...viewNow(), slices: before });
+
+export function viewChanged(words: string, before: UndoneView): void {
+  const [document, after] = [document_.value, viewNow()];
+  const isSame = before.window.every((value, n) => value === after.window[n]);
+  if (!isSame || before.slices !== after.slices) {
+    take({ words, before: document, after: document, view: { before, after } });
   }
 }
 
@@ -76,7 +103,7 @@ export function undo(): void {
       past.value = past.value.slice(0, -1);
       future.value = [...future.value, step];
       document_.value = step.before;
-      window_.value = step.window?.before ?? window_.value;
+      show(step.view?.before ?? viewNow());
     });
   }
 }
@@ -88,7 +115,7 @@ export function redo(): void {
       future.value = future.value.slice(0, -1);
       past.value = [...past.value, step];
       document_.value = step.after;
-      window_.value = step.window?.after ?? window_.value;
+      show(step.view?.after ?? viewNow());
     });
   }
 }

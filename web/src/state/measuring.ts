@@ -33,7 +33,10 @@ export const NOTHING_SUGGESTED: Suggested = [null, null];
 export interface Answers {
   readonly suggested: Suggested;
   readonly stenosis: Stenosis | null;
+  /** The diameter of the marked place, and why there is no percentage. */
   readonly notGraded: string | null;
+  /** A place that is narrower than the marked one. */
+  readonly narrower: string | null;
   /** Doubts about the stenosis percentage; if nothing is marked, about that of the suggested places. */
   readonly doubts: readonly string[];
   readonly stretch: Stretch | null;
@@ -46,6 +49,7 @@ export const NO_ANSWERS: Answers = {
   suggested: NOTHING_SUGGESTED,
   stenosis: null,
   notGraded: null,
+  narrower: null,
   doubts: [],
   stretch: null,
   secondStretch: null,

@@ -9,10 +9,12 @@ import type {
   ScanStudy,
   SeriesWish,
   Settings,
+  Slices,
   States,
   Vector,
   Window,
 } from '../core/messages';
+import { STANDARD } from '../core/planes';
 import * as store from './store';
 
 export interface OpenedStudy {
@@ -47,6 +49,7 @@ export function takeOpened({ report, hair, ...opened }: OpenedStudy): void {
     store.firstPlace.value = hair?.point ?? null;
     store.pickedVessel.value = hair?.vessel ?? null;
     store.pickedPlace.value = hair?.arcLength ?? 0;
+    store.slices.value = STANDARD;
   });
 }
 
@@ -73,9 +76,10 @@ export interface ShownView {
   /** The name of a layout; another name leaves the layout. */
   readonly layout: string;
   readonly crossHair: Vector | null;
+  readonly slices: Slices;
 }
 
-export function showView({ camera, method, settings, window, layout, crossHair }: ShownView): void {
+export function showView({ camera, method, settings, window, layout, crossHair, slices }: ShownView): void {
   const isLayout = (name: string): name is store.Layout =>
     (store.LAYOUTS as readonly string[]).includes(name);
   batch(() => {
@@ -83,6 +87,7 @@ export function showView({ camera, method, settings, window, layout, crossHair }
     store.method.value = method;
     store.settings.value = settings;
     store.window_.value = window ?? store.window_.value;
+    store.slices.value = slices;
     if (isLayout(layout)) {
       store.layout.value = layout;
     }

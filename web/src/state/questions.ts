@@ -15,10 +15,16 @@ export function askToLeave(question: Leaving | null): void {
 }
 
 /** Files of a volume that may be a new scan or a vessel mask, until the user decides. */
-export const unclearFiles = signal<readonly GivenFile[] | null>(null);
+export interface UnclearFiles {
+  readonly files: readonly GivenFile[];
+  /** Whether their grid is that of a mask of the open scan. */
+  readonly canBeMask: boolean;
+}
 
-export function askWhatIs(files: readonly GivenFile[] | null): void {
-  unclearFiles.value = files;
+export const unclearFiles = signal<UnclearFiles | null>(null);
+
+export function askWhatIs(unclear: UnclearFiles | null): void {
+  unclearFiles.value = unclear;
 }
 
 /** A file of the study in which objects for a PACS could be saved. */

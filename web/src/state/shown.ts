@@ -15,7 +15,7 @@ import { engine } from '../worker/engine';
 import { shownVessels } from './changes';
 import { type Document, EMPTY } from './document';
 import { answered, editQueue } from './edit-queue';
-import { begin, document_ } from './history';
+import { begin, document_, setGiven } from './history';
 import * as store from './store';
 import { active } from './tool';
 
@@ -72,6 +72,7 @@ export function beginStudy(vessels: VesselDocument | null): void {
     listedLines.value = linesOf(document.vessels);
     shownText = textOf(document);
     begin(document);
+    setGiven(document);
   });
 }
 

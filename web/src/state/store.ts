@@ -12,11 +12,13 @@ import type {
   Roll,
   ScanStudy,
   Settings,
+  Slices,
   Started,
   States,
   Vector,
   Window,
 } from '../core/messages';
+import { STANDARD } from '../core/planes';
 
 export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure' | 'report';
 export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure', 'report'];
@@ -76,6 +78,8 @@ export const cprAngle = signal(0);
 export const cprFeature = signal<Feature | null>(null);
 /** Which side of the lumen the CPR follows, narrowest or widest; null for a constant rotation. */
 export const cprRoll = signal<Roll | null>(null);
+
+export const slices = signal<Slices>(STANDARD);
 
 export const layout = signal<Layout>('strip');
 export const maximised = signal<ViewName | null>(null);
@@ -186,8 +190,8 @@ export function setCrossHair(to: CrossHair): void {
   crossHair.value = to;
 }
 
-/** Rotation per wheel step over a CPR (radians). */
-const TURN_STEP = Math.PI / 36;
+/** Rotation per wheel step over a CPR, or per arrow key in a slice (radians). */
+export const TURN_STEP = Math.PI / 36;
 
 export function turnCpr(steps: number): void {
   cprAngle.value += steps * TURN_STEP;

@@ -60,7 +60,7 @@ export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
       await goOn(session);
     });
   } else if (store.hasVolume.value && files.length > 0 && areAll(files, VOLUMES)) {
-    askWhatIs(files);
+    askWhatIs({ files, canBeMask: await engine.fitsAsMask(files).catch(() => false) });
   } else if (store.hasVolume.value && files[0] && isMask) {
     await addSegmentation(files[0]);
   } else if (areLines) {

@@ -13,6 +13,7 @@ import type {
   Method,
   SavedView,
 } from '../core/messages';
+import { STANDARD } from '../core/planes';
 import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
 import type { Document } from '../state/document';
@@ -75,6 +76,7 @@ function displayState(): DisplayState | null {
       settings: store.viewSettings.value,
       layout: store.layout.value,
       crossHair: store.crossHair.value?.point ?? null,
+      slices: store.slices.value,
       picked: id === null ? null : { id, at: store.pickedPlace.value },
     }
   );
@@ -141,6 +143,7 @@ function look(view: SavedView): void {
     window: Array.isArray(window) ? [Number(window[0]), Number(window[1])] : null,
     layout: view.layout,
     crossHair: view.cross_hair,
+    slices: view.slices ?? STANDARD,
   });
 }
 

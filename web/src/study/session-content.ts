@@ -9,10 +9,12 @@ import type {
   SavedView,
   SessionContent,
   Settings,
+  Slices,
   StenosisMethod,
   Territory,
   Vector,
 } from '../core/messages';
+import { STANDARD } from '../core/planes';
 import type { Document, VesselMarks } from '../state/document';
 
 export interface DisplayState {
@@ -21,6 +23,7 @@ export interface DisplayState {
   readonly settings: Settings;
   readonly layout: string;
   readonly crossHair: Vector | null;
+  readonly slices: Slices;
   /** The picked vessel, and the arc length of the section on it (mm). */
   readonly picked: { readonly id: number; readonly at: number } | null;
 }
@@ -66,7 +69,7 @@ function scanOf(report: Report): SavedScan | null {
 }
 
 function viewOf(displayState: DisplayState, vessels: readonly DocumentVessel[]): SavedView {
-  const { camera, method, settings, layout, crossHair, picked } = displayState;
+  const { camera, method, settings, layout, crossHair, slices, picked } = displayState;
   const { center, direction, up } = camera;
   const number = picked ? vessels.findIndex((vessel) => vessel.id === picked.id) : -1;
   return {
@@ -75,6 +78,7 @@ function viewOf(displayState: DisplayState, vessels: readonly DocumentVessel[]):
     settings,
     layout,
     cross_hair: crossHair,
+    ...(slices !== STANDARD && { slices }),
     picked: picked && number >= 0 ? { vessel: number, at_mm: picked.at } : null,
   };
 }

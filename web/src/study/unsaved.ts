@@ -1,7 +1,7 @@
 /** Protects unsaved work: asks before it is lost, and keeps the session during a reload if the user allows it. */
 import { effect } from '@preact/signals';
 import type { Document } from '../state/document';
-import { document_, saved } from '../state/history';
+import { document_, given, saved } from '../state/history';
 import { showFailure } from '../state/message';
 import { askToLeave, isKeeping, kept, setKeeping, setKept } from '../state/questions';
 import { hasVolume } from '../state/store';
@@ -22,12 +22,12 @@ export function followKeeping(tab: Kept, write: () => Promise<string>): () => vo
   let timer: ReturnType<typeof setTimeout> | undefined;
   return effect(() => {
     const isOn = isKeeping.value;
-    const isUnsaved = hasVolume.value && document_.value !== saved.value;
+    const isWorth = hasVolume.value && document_.value !== given.value;
     clearTimeout(timer);
     if (kept.value !== null) {
       return;
     }
-    if (!(isOn && isUnsaved)) {
+    if (!(isOn && isWorth)) {
       tab.removeItem(SESSION);
     } else {
       timer = setTimeout(() => {

@@ -1,10 +1,13 @@
 /** The root component of the page. */
 import { report } from '../state/store';
+import { ComparisonBar } from './ComparisonBar';
+import { ComparisonPane } from './ComparisonPane';
 import { DropZone } from './DropZone';
 import { Guide } from './Guide';
 import { Help } from './Help';
 import { Layout } from './Layout';
 import { Messages } from './Messages';
+import { OtherScan, ScanNames } from './OtherScan';
 import { ShownQuestion } from './ShownQuestion';
 import { StartPage } from './StartPage';
 import { StatusBar } from './StatusBar';
@@ -17,7 +20,13 @@ export function App() {
   return (
     <>
       {isOpen ? <Toolbar /> : null}
-      {isOpen ? <Work /> : <StartPage />}
+      <ScanNames />
+      <div class="studies">
+        {isOpen ? <Work /> : <StartPage />}
+        <OtherScan />
+      </div>
+      <ComparisonPane />
+      <ComparisonBar />
       <ShownQuestion />
       <Messages />
       <DropZone />

@@ -10,6 +10,7 @@ import {
   reformationKind,
   reformationTitle,
 } from '../state/reformation';
+import { sliceWords } from '../state/slices';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
 import { CprView } from '../views/CprView';
 import { ReformedView } from '../views/ReformedView';
@@ -99,7 +100,7 @@ function Pane({ name, isHidden, children }: PaneProps) {
     <section class={`pane ${name}${isHidden ? ' hidden' : ''}`} aria-label={TITLES[name]}>
       {name === 'turning' && <LooksBar />}
       {children}
-      <h2 class="pane-title">{name === 'straightened' ? reformationTitle() : TITLES[name]}</h2>
+      <h2 class="pane-title">{titleOf(name)}</h2>
       <button
         type="button"
         class="pane-button"
@@ -110,6 +111,12 @@ function Pane({ name, isHidden, children }: PaneProps) {
       </button>
     </section>
   );
+}
+
+function titleOf(name: ViewName): string {
+  const isSlice = name === 'axial' || name === 'coronal' || name === 'sagittal';
+  const words = isSlice ? sliceWords(name) : '';
+  return name === 'straightened' ? reformationTitle() : TITLES[name] + (words && `, ${words}`);
 }
 
 /** Shows the picked vessel as straightened CPR or in another reformation. */

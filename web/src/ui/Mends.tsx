@@ -22,6 +22,7 @@ const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   fewer_pixels: NONE,
   doubtful: NONE,
   smaller_radius: NONE,
+  other_patient: NONE,
   coordinates: spaces,
   unit: ({ values }) => values.map((unit) => [`Read in ${unit}`, { unit }]),
   place: spaces,

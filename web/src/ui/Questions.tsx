@@ -43,10 +43,16 @@ export function LeaveQuestion() {
 
 /** Asks how to use a volume that arrives while a scan is open. */
 export function FileQuestion() {
-  const files = unclearFiles.value;
-  if (!files) {
+  const unclear = unclearFiles.value;
+  if (!unclear) {
     return null;
   }
+  const { files, canBeMask } = unclear;
+  const focusIf = (isFirst: boolean) => (button: HTMLButtonElement | null) => {
+    if (isFirst) {
+      button?.focus();
+    }
+  };
   const answer = (work: () => Promise<unknown>) => {
     askWhatIs(null);
     void work();
@@ -54,10 +60,20 @@ export function FileQuestion() {
   return (
     <Question label="What is this file?">
       <p>{`What is ${files.map(({ file }) => file.name).join(', ')}?`}</p>
-      <button type="button" onClick={() => answer(() => leave(() => openFiles(files)))}>
+      <button
+        type="button"
+        ref={focusIf(!canBeMask)}
+        onClick={() => answer(() => leave(() => openFiles(files)))}
+      >
         Open as a new scan
       </button>
-      <button type="button" ref={(button) => button?.focus()} onClick={() => answer(() => addMask(files))}>
+      <button
+        type="button"
+        ref={focusIf(canBeMask)}
+        disabled={!canBeMask}
+        title={canBeMask ? undefined : 'Its grid is not that of the open scan'}
+        onClick={() => answer(() => addMask(files))}
+      >
         Use as a mask of vessels
       </button>
       <button type="button" onClick={() => answer(async () => undefined)}>
@@ -83,7 +99,7 @@ export function KeptQuestion() {
       showProblem(error);
     }
   };
-  const words = 'This tab kept unsaved vessels from before the reload.';
+  const words = 'This tab kept vessels and marks from before the reload.';
   return (
     <Question label={words}>
       <p>{words}</p>

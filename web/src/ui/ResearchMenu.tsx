@@ -1,6 +1,7 @@
 /** The menu "Research": methods, contexts, and all settings in the engine's table. */
-import type { Method, SettingRow } from '../core/messages';
+import type { Method, SettingRow, Slices } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
+import { SlabField } from '../pane/SlabField';
 import { setSetting, settingOf } from '../state/actions';
 import { chooseMethod, method, resetSettings, started } from '../state/store';
 import { keepWithin, useClosing } from './closing-menu';
@@ -29,7 +30,7 @@ export function ResearchMenu() {
       <div class="menu-body settings">
         <MethodChoice />
         <ContextChoice />
-        <SlabThickness />
+        <Slab />
         {rows.map((row) => (
           <Row key={row.name} row={row} />
         ))}
@@ -74,26 +75,9 @@ function ContextChoice() {
   );
 }
 
-function SlabThickness() {
-  const slab = settingOf('slab');
-  return (
-    <label>
-      <span>Slab</span>
-      <input
-        class="number"
-        type="number"
-        min="0"
-        max="100"
-        step="1"
-        value={Array.isArray(slab) ? String(slab[0]) : '0'}
-        onChange={(event) => {
-          const thickness = Number(event.currentTarget.value);
-          setSetting('slab', thickness > 0 ? [thickness, 'max'] : null);
-        }}
-      />
-      <small>mm</small>
-    </label>
-  );
+function Slab() {
+  const slab = settingOf('slab') as Slices['slab'];
+  return <SlabField slab={slab} choose={(chosen) => setSetting('slab', chosen)} />;
 }
 
 function Row({ row }: { readonly row: SettingRow }) {

@@ -9,6 +9,7 @@ import { attempt, hasCenterlines, saveCenterlines, saveSession } from '../output
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
 import { isKeeping, isScanNamed, setKeeping, setScanNamed } from '../state/questions';
+import { isCompanion } from '../state/two-scans';
 import { keepWithin, useClosing } from './closing-menu';
 
 export function SaveMenu() {
@@ -28,7 +29,7 @@ export function SaveMenu() {
           title="Vessels, marks and views, to continue later: open the scan first, then the session"
           save={saveSession}
         />
-        <Keeping />
+        {!isCompanion.value && <Keeping />}
         {hasCenterlines() &&
           SAVED_CENTERLINES.map((kind) => (
             <Choice key={kind} words={`Centerlines (.${kind})`} save={() => saveCenterlines(kind)} />

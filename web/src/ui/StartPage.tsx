@@ -1,6 +1,7 @@
 /** Start page: instructions and phantoms. */
 
 import { started } from '../state/store';
+import { isCompanion } from '../state/two-scans';
 import { openPhantom } from '../study/study';
 import { startGuide } from './Guide';
 import { OpenButtons } from './OpenButtons';
@@ -12,6 +13,22 @@ const PHANTOMS: readonly (readonly [string, string])[] = [
 ];
 
 export function StartPage() {
+  return isCompanion.value ? <OpenOther /> : <Start />;
+}
+
+function OpenOther() {
+  return (
+    <main class="start">
+      <h1>Other scan</h1>
+      <p>Open another scan of the patient, such as an earlier one. You can drop its centerlines with it.</p>
+      <section class="open-here" aria-label="Open the other scan">
+        <OpenButtons />
+      </section>
+    </main>
+  );
+}
+
+function Start() {
   const isReady = started.value !== null;
   return (
     <main class="start">

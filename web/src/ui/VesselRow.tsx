@@ -22,6 +22,7 @@ import {
 import { extend, takeTool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';
+import { LineByHand, LineTools } from './LineTools';
 
 export const NAMES_TO_OFFER = 'names-to-offer';
 
@@ -78,6 +79,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
         {vessel.isHidden ? '◌' : '◉'}
       </button>
       <SuggestedName vessel={vessel} />
+      <LineByHand vessel={vessel} />
       {isPicked && !vessel.isHidden ? <VesselActions vessel={vessel} /> : null}
     </li>
   );
@@ -210,6 +212,7 @@ function VesselActions({ vessel }: RowProps) {
       >
         Cut here
       </button>
+      <LineTools vessel={vessel} />
       {others.length > 0 && (
         <select
           value=""

@@ -1,7 +1,7 @@
 /** Handles keys for the whole page, except those that a text field needs. */
 
 import { performAny } from '../edit/performing';
-import { type Action, actionOfKey } from '../input/bindings';
+import { type Action, actionOfKey, keyOf } from '../input/bindings';
 import { focusSoon } from '../input/focus';
 import { saveByKey } from '../output/save-actions';
 import { layout } from '../state/store';
@@ -9,7 +9,8 @@ import { isTracing } from '../state/tool';
 
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {
-    const { target, key } = event;
+    const { target } = event;
+    const key = keyOf(event);
     const action = actionOfKey(key, event.ctrlKey || event.metaKey ? 'Ctrl' : '');
     if (!action || event.altKey || isPress(target, key) || (isField(target) && !isOfAll(action))) {
       return;

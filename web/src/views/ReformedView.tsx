@@ -3,6 +3,7 @@
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import { Failure } from '../core/failure';
 import type { Pair, Picture, Reformation, ReformedPicture, Side } from '../core/messages';
+import { currentVessel } from '../measure/current';
 import { savePane } from '../output/pane-picture';
 import { attempt } from '../output/save-actions';
 import { FlatPicture } from '../pane/FlatPicture';
@@ -14,6 +15,7 @@ import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '.
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { NamedScale } from './NamedScale';
+import { apart, LETTER, type PlacedName } from './names-apart';
 import { HairLines } from './TurningOverlay';
 
 /** Empty picture, shown if the reformation failed. */
@@ -72,12 +74,8 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
         >
           {refused && <p class="nothing-yet">{refused}</p>}
           {text &&
-            shown?.marks.map(({ words, pixel: [x, y] }) => (
-              <b
-                key={`${words} ${x} ${y}`}
-                class="name-in-map"
-                style={{ left: `${x + left}px`, top: `${y + top}px` }}
-              >
+            namesOf(shown, [left, top]).map(({ words, at: [x, y] }) => (
+              <b key={`${words} ${x} ${y}`} class="name-in-map" style={{ left: `${x}px`, top: `${y}px` }}>
                 {words}
               </b>
             ))}
@@ -100,6 +98,16 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
       </div>
     </div>
   );
+}
+
+/** The names in the picture, none over another one or over the name of the vessel at the top. */
+function namesOf(shown: ReformedPicture | null, [left, top]: Pair): readonly PlacedName[] {
+  const names = (shown?.marks ?? []).map(({ words, pixel: [x, y] }) => ({
+    words,
+    at: [x + left, y + top] as const,
+  }));
+  const title = currentVessel.value?.name ?? '';
+  return apart(names, [{ words: title, at: [(LETTER[0] * title.length) / 2, LETTER[1] / 2] }]);
 }
 
 const begin = (pane: Pair, picture: Pair): Pair => [

@@ -6,6 +6,7 @@ import { pixelOn, pointOn } from '../core/planes';
 import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
+import { snapped } from '../measure/sections';
 import { FlatPicture } from '../pane/FlatPicture';
 import { PlayButton } from '../pane/PlayButton';
 import { dragWindow, windowBack } from '../state/actions';
@@ -17,6 +18,8 @@ import { pickedLine } from '../state/store';
 import { engine } from '../worker/engine';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
+import { LineGrips } from './LineGrips';
+import { ofPlane } from './projection';
 import { HairLines } from './TurningOverlay';
 
 /** Width and height shown at first (mm). */
@@ -40,6 +43,7 @@ export function SectionView() {
   const line = pickedLine();
   const profile = currentProfile.value;
   const window = store.window_.value;
+  const volume = store.report.value?.volume;
   const [size, setSize] = useState<Pair | null>(null);
   const [side, setSide] = useState(FIRST_SIDE);
   const [frame, setFrame] = useState<Frame | null>(null);
@@ -61,6 +65,7 @@ export function SectionView() {
 
   const plane = frame && size ? planeOf(frame, size, side) : null;
   const ask = useAsked(plane, window);
+  const isLate = frame !== null && (frame.line !== line || frame.at !== at);
   const point = (place: Pair) => {
     if (plane) {
       moveCrossHair(pointOn(plane, place), 'section');
@@ -87,7 +92,7 @@ export function SectionView() {
       words="section across the picked vessel"
       ask={ask}
       handlers={handlers}
-      isLate={frame !== null && (frame.line !== line || frame.at !== at)}
+      isLate={isLate}
       empty="The section across the vessel appears here once there is a vessel."
       onSize={setSize}
     >
@@ -100,6 +105,12 @@ export function SectionView() {
           </div>
           <SliceMeasures plane={plane} where="in the section" />
           {hair && <HairLines at={pixelOn(plane, hair.point)} />}
+          {volume && frame && !isLate && (
+            <LineGrips
+              projection={ofPlane(plane, volume)}
+              only={{ at: profile ? snapped(profile, frame.at) : frame.at, point: frame.center }}
+            />
+          )}
         </>
       )}
     </FlatPicture>

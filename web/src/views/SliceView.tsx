@@ -1,22 +1,23 @@
-/** An axial, coronal or sagittal slice through the cross-hair. */
+/** A slice through the cross-hair: axial, coronal or sagittal at first. */
 
 import { batch } from '@preact/signals';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { Pair, Plane } from '../core/messages';
 import {
-  AXES,
   fittedLook,
   type Look,
+  normalOf,
   pannedLook,
   pixelOn,
   planeOf,
   pointOn,
   resizedLook,
   type SliceName,
-  sliceDistance,
+  turnedLook,
+  voxelSide,
   zoomedLook,
 } from '../core/planes';
-import { add, cross, scale } from '../core/vectors';
+import { add, scale } from '../core/vectors';
 import type { Handlers } from '../input/pointer';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { FlatPicture } from '../pane/FlatPicture';
@@ -25,12 +26,16 @@ import { moveCrossHair } from '../state/cross-hair';
 import { aimAt } from '../state/drawing';
 import { stepLumen } from '../state/lumens';
 import { toggleMaximised } from '../state/panels';
+import { areLinesShown, turnBySteps } from '../state/slices';
 import * as store from '../state/store';
 import { isTracing } from '../state/tool';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
+import { LineGrips } from './LineGrips';
 import { LumenInset } from './LumenInset';
+import { PlaneLines } from './PlaneLines';
 import { ofPlane, type Projection } from './projection';
+import { SliceTools } from './SliceTools';
 import { TracedOverlay } from './TracedOverlay';
 import { HairLines } from './TurningOverlay';
 import { clickWithTool, followPointerAt, forgetPointer, toolRows } from './tool-clicks';
@@ -39,23 +44,28 @@ export function SliceView({ name }: { readonly name: SliceName }) {
   const volume = store.report.value?.volume ?? null;
   const point = store.crossHair.value?.point ?? null;
   const window = store.window_.value;
-  const [look, setLook] = useState<Look | null>(null);
+  const axes = store.slices.value[name];
+  const { slab } = store.slices.value;
+  const [before, setLook] = useState<Look | null>(null);
   const [size, setSize] = useState<Pair | null>(null);
+  const look = before && point && turnedLook(before, axes, point);
+  // The look keeps its turn, before the cross-hair moves.
+  useLayoutEffect(() => setLook(look), [axes]);
 
   useEffect(() => {
-    setLook(volume && size ? fittedLook(volume, name, size) : null);
+    setLook(volume && size ? fittedLook(volume, axes, size) : null);
   }, [volume, name, Boolean(size), store.resets.value]);
 
-  const before = useRef<Pair | null>(null);
+  const sizeBefore = useRef<Pair | null>(null);
   useEffect(() => {
-    const from = before.current;
-    before.current = size;
+    const from = sizeBefore.current;
+    sizeBefore.current = size;
     if (from && size) {
       setLook((seen) => seen && resizedLook(seen, from, size));
     }
   }, [size]);
 
-  const plane = look && point && size ? planeOf(name, look, point, size) : null;
+  const plane = look && point && size ? { ...planeOf(look, point, size), slab } : null;
   const projection = plane && volume ? ofPlane(plane, volume) : null;
   const ask = useAsked(plane, window);
   return (
@@ -66,13 +76,17 @@ export function SliceView({ name }: { readonly name: SliceName }) {
       handlers={sliceHandlers(name, look, setLook, plane, projection)}
       onSize={setSize}
       onArrow={projection && isTracing() ? (by) => stepCrossHair(name, projection, by) : undefined}
+      onTurn={areLinesShown.value ? (steps) => turnBySteps(name, steps) : undefined}
     >
       {plane && point && (
         <>
-          <EdgeLabels {...AXES[name]} size={plane.size} spacing={plane.pixel_spacing} />
+          <EdgeLabels {...axes} size={plane.size} spacing={plane.pixel_spacing} />
           {projection && <TracedOverlay projection={projection} />}
           <SliceMeasures plane={plane} where={`in the ${name} slice`} />
           <HairLines at={pixelOn(plane, point)} />
+          {!isTracing() && <PlaneLines name={name} plane={plane} point={point} />}
+          {!isTracing() && <SliceTools />}
+          {projection && !isTracing() && <LineGrips projection={projection} />}
           <LumenInset view={name} size={plane.size} />
         </>
       )}
@@ -102,7 +116,7 @@ function sliceHandlers(
       if (action === 'window') {
         dragWindow(by);
       } else if (action === 'pan' && look) {
-        setLook(pannedLook(look, name, by));
+        setLook(pannedLook(look, by));
       }
     },
     zoom: (factor, at) => {
@@ -151,10 +165,9 @@ const atFirst: Partial<Record<SliceName, Look | null>> = {};
 function scrollSlices(name: SliceName, steps: number): void {
   const [volume, hair] = [store.report.value?.volume, store.crossHair.value];
   if (volume && hair) {
-    const { right, down } = AXES[name];
-    const normal = cross(right, down);
+    const normal = normalOf(store.slices.value[name]);
     const sign = name === 'coronal' ? 1 : -1;
-    const step = scale(normal, steps * sign * sliceDistance(volume, name));
+    const step = scale(normal, steps * sign * voxelSide(volume, normal));
     moveCrossHair(add(hair.point, step), name);
   }
 }

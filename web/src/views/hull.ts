@@ -24,9 +24,19 @@ export function thinned(discs: readonly Disc[]): readonly Disc[] {
 
 /** SVG path of the union, enlarged by `wider` CSS pixels. All parts turn the same way, so none cuts a hole. */
 export function hullPath(discs: readonly Disc[], wider: number): string {
-  const larger = discs.map(({ at, radius }) => ({ at, radius: radius + wider }));
+  const wide = ({ at, radius }: Disc): Disc => ({ at, radius: radius + wider });
+  const larger = discs.map(wide);
   const between = larger.slice(1).map((disc, n) => quad(larger[n] ?? disc, disc));
-  return [...larger.map(circle), ...between].join('');
+  return [...withinEnds(discs).map(wide).map(circle), ...between].join('');
+}
+
+/** The discs that do not bulge beyond the ends, where a vessel leaves another one or the scan; all discs of a line seen end-on. */
+function withinEnds(discs: readonly Disc[]): readonly Disc[] {
+  const ends = [discs.at(0), discs.at(-1)].filter((end) => end !== undefined);
+  const isWithin = ({ at, radius }: Disc) =>
+    ends.every((end) => Math.hypot(at[0] - end.at[0], at[1] - end.at[1]) >= radius);
+  const within = discs.filter(isWithin);
+  return within.length > 0 ? within : discs;
 }
 
 /** The corners of the convex polygon around points, in order (monotone chain). */

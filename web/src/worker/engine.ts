@@ -122,6 +122,10 @@ export class EngineClient implements Asked {
     return this.first(this.host.checkFiles(files));
   }
 
+  fitsAsMask(files: readonly GivenFile[]): Promise<boolean> {
+    return this.first(this.host.fitsAsMask(files));
+  }
+
   dicomHead(file: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.first(this.host.dicomHead(file));
   }

@@ -1,6 +1,6 @@
 /** Loads a study from the server of the page: a voxel stream of `lumencut view` or a file, and centerlines. */
 import { Failure } from '../core/failure';
-import type { Progress, ScanStudy, States } from '../core/messages';
+import type { Progress, ScanIdentity, ScanStudy, States } from '../core/messages';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { type Beside, BlobSource, fileName } from '../io/source';
 import type { Study } from '../io/study';
@@ -26,6 +26,7 @@ interface Header {
   readonly states_spacing?: boolean;
   readonly states_orientation?: boolean;
   readonly has_study?: boolean;
+  readonly identity?: ScanIdentity;
 }
 
 export interface Fetched {
@@ -94,7 +95,11 @@ async function fetchVolume(context: LoadContext, address: string, onProgress: On
     spacing: header.states_spacing !== false,
     orientation: header.states_orientation !== false,
   };
-  const study: ScanStudy = { isServed: true, hasStudy: header.has_study === true };
+  const study: ScanStudy = {
+    isServed: true,
+    hasStudy: header.has_study === true,
+    identity: header.identity ?? null,
+  };
   return { notes: header.notes ?? [], name: header.name ?? '', states, study };
 }
 

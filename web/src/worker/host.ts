@@ -31,7 +31,7 @@ import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
 import { ask, askAtOnce, isAtOnce, kindOf, moved, refuseStopped } from './answers';
 import { type Fetched, fetchStudy } from './fetching';
-import { askWithFiles } from './masks';
+import { askWithFiles, fitsAsMask } from './masks';
 import { type LoadContext, Replacing } from './replacing';
 
 const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
@@ -155,6 +155,10 @@ export class EngineHost {
       const sources = files.map(({ path, file }) => new BlobSource(path, file));
       await checkFiles(sources, { kindOf, steps: new Steps(() => {}, this.cancelled.signal) });
     });
+  }
+
+  fitsAsMask(files: readonly GivenFile[]): Promise<boolean> {
+    return this.run(() => fitsAsMask(this.ready(), files, new Steps(() => {}, this.cancelled.signal)));
   }
 
   dicomHead({ path, file }: GivenFile): Promise<Uint8Array<ArrayBuffer>> {

@@ -26,7 +26,7 @@ export async function askWithFiles<N extends Question>(
     return ask(engine, name, message, attachments);
   }
   try {
-    const notes = await readMask(engine, mask, new Steps(onProgress, signal));
+    const notes = await openAs(new MaskStudy(engine), mask, new Steps(onProgress, signal));
     refuseStopped(name, signal);
     const answer = ask(engine, name, message, attachments) as AfterEdit;
     const edited = { ...answer.edited, notes: [...notes, ...answer.edited.notes] };
@@ -36,12 +36,19 @@ export async function askWithFiles<N extends Question>(
   }
 }
 
-async function readMask(
+/** Whether files can be a mask of the open scan, by their grid; their voxels are not read. */
+export async function fitsAsMask(
   engine: Engine,
   files: readonly GivenFile[],
   steps: Steps,
-): Promise<readonly string[]> {
-  const study = new MaskStudy(engine);
+): Promise<boolean> {
+  const study = new GridStudy(engine);
+  // Once the grid is known, the rest is not read.
+  await openAs(study, files, steps).catch(() => undefined);
+  return study.fits;
+}
+
+async function openAs(study: Study, files: readonly GivenFile[], steps: Steps): Promise<readonly string[]> {
   const sources = files.map(({ path, file }) => new BlobSource(path, file));
   const { openFiles } = await import('../io/study');
   const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, {
@@ -56,7 +63,7 @@ async function readMask(
 }
 
 class MaskStudy implements Study {
-  constructor(private readonly engine: Engine) {}
+  constructor(protected readonly engine: Engine) {}
 
   begin_volume(header: string): void {
     this.engine.begin_mask(header);
@@ -68,5 +75,15 @@ class MaskStudy implements Study {
 
   openCenterlines(_bytes: Uint8Array, name: string): readonly string[] {
     throw new Failure('format', name, 'centerlines', 'a vessel mask', 'open the file as centerlines');
+  }
+}
+
+class GridStudy extends MaskStudy {
+  fits = false;
+
+  override begin_volume(header: string): void {
+    this.engine.check_mask(header);
+    this.fits = true;
+    throw new Failure('interrupted', 'mask', 'its grid', 'no voxels');
   }
 }

@@ -74,7 +74,9 @@ impl CenterlinePath {
     }
 }
 
-fn smoothed(vessel: &Vessel, length: f64) -> Result<Vessel> {
+/// The vessel without radii, its points averaged by a Gaussian with a standard deviation of `length` (mm). Ends stay. Fails with
+/// [`ErrorKind::VesselTree`] for a length that no radius can have.
+pub fn smoothed(vessel: &Vessel, length: f64) -> Result<Vessel> {
     let points = vessel.points().to_vec();
     let lengths = vec![length; points.len()];
     let tree = VesselTree::new(vec![Vessel::new(points, Some(lengths))?])?;

@@ -56,5 +56,6 @@ pub mod transfer;
 pub(crate) mod walk;
 #[doc(hidden)]
 pub mod walls;
+pub(crate) mod whole_curve;
 #[doc(hidden)]
 pub mod window;

@@ -53,16 +53,16 @@ fn decide(level: u32, key: f32, piece: u32, vessel: i32, q: vec2f) -> Decision {
     return Decision(vessel, s, beyond, sheet_radius, slope_of(here, next), is_first(key));
 }
 
-// The cost of a piece at q, without the tiers of *lumen first*.
-fn cost_of_piece(piece: u32, q: vec2f) -> f32 {
+// Depth, distance and radius of a piece at q (mm).
+fn piece_at(piece: u32, q: vec2f) -> vec3f {
     let here = projected[piece / 2u];
     if piece % 2u == 0u {
-        return cost_of(here.point.z, length(q - here.point.xy), here.radius);
+        return vec3f(here.point.z, length(q - here.point.xy), here.radius);
     }
     let next = projected[piece / 2u + 1u];
     let at = foot(here, next, q);
     let z = here.point.z + at.t * (next.point.z - here.point.z);
-    return cost_of(z, at.distance, here.radius + at.t * (next.radius - here.radius));
+    return vec3f(z, at.distance, here.radius + at.t * (next.radius - here.radius));
 }
 
 // Kind in pieces.rs: 0 stripe, 1 wedge, 2 half-plane, 3 full plane.

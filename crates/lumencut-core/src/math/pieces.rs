@@ -107,7 +107,7 @@ pub(crate) struct Pixels<'a, const N: usize> {
 
 impl<const N: usize> Pixels<'_, N> {
     #[inline(always)]
-    fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) {
+    pub(crate) fn offer(&mut self, l: usize, covered: bool, key: f32, z: f32, piece: u32) {
         let (old_key, old_z, old_piece) = (self.key[l], self.z[l], self.piece[l]);
         let wins = covered & ((key < old_key) | ((key == old_key) & (piece < old_piece)));
         self.key[l] = if wins { key } else { old_key };

@@ -29,7 +29,7 @@ impl Choices {
         self.context.check_gamma()?;
         self.context.check_step()?;
         self.settings.check_rows()?;
-        self.settings.check_chosen()?;
+        self.settings.check_together()?;
         self.context.check_rows()?;
         let context = self.context.context.is_some().then(|| self.context.context());
         Ok(Settings { context, ..self.settings.clone() })
@@ -40,7 +40,7 @@ impl Settings {
     /// Checks all settings. Fails with [`ErrorKind::Settings`] naming the first one outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
-        self.check_chosen()?;
+        self.check_together()?;
         self.context.as_ref().map_or(Ok(()), |context| {
             let choices = ContextChoices::from(context);
             choices.check_rows()?;

@@ -1,7 +1,8 @@
-//! The effect of chosen vessels, which take precedence over all others, on the other settings.
+//! Settings that exclude each other, and the effect of chosen vessels, which take precedence over all others.
 
 use std::borrow::Cow;
 
+use super::rules::DistanceRule;
 use super::table::Settings;
 use crate::error::{Error, ErrorKind, Result};
 
@@ -31,7 +32,12 @@ impl Settings {
     }
 
     /// Rejects chosen vessels without `lumen_first`, since lumen and wall then have no tiers.
-    pub(super) fn check_chosen(&self) -> Result<()> {
+    pub(super) fn check_together(&self) -> Result<()> {
+        if self.distance_rule == DistanceRule::WholeCurve && self.lumen_first {
+            let found = "the whole curve with lumen_first";
+            return Err(Error::new(ErrorKind::Settings, "distance_rule", found, "the cost of the paper")
+                .mend("use the paper's rules, or set lumen_first to False"));
+        }
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());
         }

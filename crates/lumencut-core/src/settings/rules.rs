@@ -15,6 +15,20 @@ impl Named for LevelChoice {
     const NAMES: &'static [(&'static str, Self)] = &[("own", Self::Own), ("nearest", Self::Nearest)];
 }
 
+/// The distance that the cost of a piece counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DistanceRule {
+    /// To the segment or point of the piece.
+    Local,
+    /// To the nearest point of its entire vessel (paper Eq. 2).
+    WholeCurve,
+}
+
+impl Named for DistanceRule {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("local", Self::Local), ("whole curve", Self::WholeCurve)];
+}
+
 /// The rule that decides where silhouettes are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SilhouetteRule {

@@ -4,7 +4,7 @@
 use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
 use super::focus::Focus;
-use super::rules::{LevelChoice, SilhouetteRule};
+use super::rules::{DistanceRule, LevelChoice, SilhouetteRule};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
@@ -25,6 +25,12 @@ settings! {
     pub struct Settings {
         /// λ of Eq. 2: the cost of one mm beyond the wall of a vessel (mm of depth per mm).
         cost_weight: f64 = 10.0, range(0.0, 1e4, "mm of depth per mm");
+
+        /// Distance that the cost counts (name): to the piece of the vessel that a pixel could show (`local`), or to the
+        /// entire vessel as in Eq. 2 (`whole curve`).
+        ///
+        /// With `whole curve`, a vessel that crosses itself hides its farther part. Slow; not with `lumen_first`.
+        distance_rule: DistanceRule = DistanceRule::Local;
 
         /// Measure distances from the vessel wall instead of the centerline.
         ///

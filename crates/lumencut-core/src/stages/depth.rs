@@ -8,6 +8,7 @@ mod own;
 
 use rayon::prelude::*;
 
+pub use self::blended::Blend;
 use self::blended::Blended;
 use super::{Image, Work};
 use crate::camera::Camera;
@@ -22,7 +23,8 @@ use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
 use crate::math::tile::{Tile, gather, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
-use crate::settings::{LevelChoice, MAX_LEVELS, Settings};
+use crate::math::whole_curve;
+use crate::settings::{DistanceRule, LevelChoice, MAX_LEVELS, Settings};
 
 /// The levels of a tree in one view, the rule that orders their pieces, and how pixels select levels.
 pub struct CutSurface<'a> {
@@ -32,6 +34,7 @@ pub struct CutSurface<'a> {
     rule: Rule,
     lumen_first: bool,
     level_choice: LevelChoice,
+    distance_rule: DistanceRule,
     /// N / σ: at the distance D (mm) from the vessels, a pixel blends the levels around √(D · N / σ).
     selection: f32,
 }
@@ -53,6 +56,7 @@ impl<'a> CutSurface<'a> {
             rule: parameters.rule(),
             lumen_first: settings.lumen_first,
             level_choice: settings.level_choice,
+            distance_rule: settings.distance_rule,
             selection: parameters.selection,
         }
     }
@@ -112,6 +116,10 @@ impl Search for LowestKeySearch<'_> {
         rule: &Rule,
         envelope: &mut Envelope,
     ) {
+        if self.surface.distance_rule == DistanceRule::WholeCurve {
+            let projected = &self.surface.projected[level].projected;
+            return whole_curve::lowest_keys::<LUMEN_FIRST>(projected, tile, rule, envelope);
+        }
         let hierarchy = self.surface.hierarchy(level);
         lowest_keys::<LUMEN_FIRST>(hierarchy, tile, rule, &self.seeds[level], envelope);
         self.seeds[level] = Seeds::collect(envelope, &self.surface.levels[level].bundle_of_slot);
@@ -130,10 +138,6 @@ pub type Sheet = [f32; 4];
 
 /// The gap in a sheet if a chosen vessel takes precedence at the pixel.
 pub const CHOSEN_GAP: f32 = -1.0;
-
-/// Per pixel: the cost z + λ · max(0, d − r) and the level, both blended like the depth before the filter, and the
-/// [`crate::math::pieces::Kind`] of the piece of the level with the larger weight, and this weight.
-pub type Blend = [f32; 4];
 
 /// The images that the stage writes. `sheet` and `blend` are empty if nothing reads them.
 #[derive(Debug)]
@@ -233,7 +237,7 @@ impl DepthRow<'_> {
         let (width, with_sheet) = (camera.size()[0], !self.sheet.is_empty());
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
-            let mut blended = (!self.blend.is_empty()).then(Blended::new);
+            let mut blended = (!self.blend.is_empty()).then(|| Blended::new(surface.distance_rule));
             let of_tile = blended.as_mut();
             let over = match surface.level_choice {
                 LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search, of_tile),
@@ -248,7 +252,7 @@ impl DepthRow<'_> {
             if with_sheet {
                 scatter(&over.sheet, self.sheet, width, column);
             }
-            if let Some(Blended { blend }) = &blended {
+            if let Some(Blended { blend, .. }) = &blended {
                 scatter(blend, self.blend, width, column);
             }
         }

@@ -2,13 +2,13 @@
 // detail (paper sections 3.1.3, 3.1.4, 3.2.1 and 3.3.2; Eq. 2).
 // import math/walk
 // import math/own_pieces
+// import math/whole_curve
 
 const CHOSEN_GAP: f32 = -1.0;
 
 override HAS_SHEET: bool = false;
 override HAS_BLEND: bool = false;
 
-@group(0) @binding(4) var<storage, read> vessel_of_slot: array<i32>;
 @group(0) @binding(5) var<storage, read_write> depth_image: array<f32>;
 @group(0) @binding(6) var<storage, read_write> vessel_image: array<i32>;
 // The sheet or the blend.
@@ -53,6 +53,14 @@ fn distances_at(tile: Tile, a: u32, r: u32) -> vec4f {
 fn weights(q: u32, k: f32) -> vec4f {
     let coarse = select(vec4f(0.0), coarse_weight[q], fine_level[q] + 1.0 == vec4f(k));
     return select(coarse, 1.0 - coarse_weight[q], fine_level[q] == vec4f(k));
+}
+
+fn find_winners(tile: Tile, level: u32) {
+    if WHOLE_CURVE {
+        lowest_keys_of_curves(level);
+    } else {
+        lowest_keys(tile, level);
+    }
 }
 
 fn begin(k: f32) {
@@ -108,7 +116,11 @@ fn add_to_sheets(tile: Tile, level: u32) {
 
 // `so_far` with one more level in it; `piece` counts the slots of all levels. depth.rs explains the fields.
 fn with_level(so_far: vec4f, level: f32, weight: f32, piece: u32, q: vec2f) -> vec4f {
-    let sum = so_far.xy + weight * vec2f(cost_of_piece(piece, q), level);
+    var shown = piece_at(piece, q);
+    if WHOLE_CURVE {
+        shown.y = distance_to_curve(u32(level), piece / 2u, q);
+    }
+    let sum = so_far.xy + weight * vec2f(cost_of(shown.x, shown.y, shown.z), level);
     let ruling = select(so_far.zw, vec2f(kind_of(piece), weight), weight > so_far.w);
     return vec4f(sum, ruling);
 }
@@ -140,7 +152,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
         let level = countTrailingZeros(needed);
         needed &= needed - 1u;
         begin(f32(level));
-        lowest_keys(tile, level);
+        find_winners(tile, level);
         blend(level);
         if HAS_SHEET {
             add_to_sheets(tile, level);
@@ -186,9 +198,11 @@ fn blend_own(place: u32, decision: Decision, z: f32, winner: u32, q: vec2f) {
         details_image[place] = vec4f(slope, decision.sheet_radius, gap);
     }
     if HAS_BLEND {
-        let of_fine = with_level(vec4f(0.0), fine, 1.0 - weight, fine_piece.piece, q);
-        let of_both = with_level(of_fine, fine + 1.0, weight, coarse_piece.piece, q);
-        details_image[place] = of_both;
+        var blend = with_level(vec4f(0.0), fine, 1.0 - weight, fine_piece.piece, q);
+        if weight > 0.0 {
+            blend = with_level(blend, fine + 1.0, weight, coarse_piece.piece, q);
+        }
+        details_image[place] = blend;
     }
 }
 
@@ -203,7 +217,7 @@ fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) t
         winner_z[q] = vec4f(0.0);
         winner_piece[q] = vec4u(NO_SLOT);
     }
-    lowest_keys(tile, 0u);
+    find_winners(tile, 0u);
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
             for (var c = 0u; c < QUAD; c++) {

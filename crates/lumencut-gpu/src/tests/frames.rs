@@ -9,7 +9,7 @@ use lumencut_core::math::leaps::LEAPS;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{Scene, SharedVolume, VolumeKey};
 use lumencut_core::settings::{
-    Context, ContextFrom, Focus, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode,
+    Context, ContextFrom, DistanceRule, Focus, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode,
 };
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, crossing, trefoil, y_junction};
@@ -40,6 +40,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("default", Settings::default()),
         ("the paper's", Settings::paper()),
         ("own levels by cost", with(|s| s.lumen_first = false)),
+        ("the whole curve", Settings { distance_rule: DistanceRule::WholeCurve, ..Settings::paper() }),
         ("lumen first, nearest", with(|s| s.level_choice = LevelChoice::Nearest)),
         ("many own levels", with(|s| (s.levels, s.level_distance) = (15, 1.0))),
         ("no wall, no radius", with(|s| (s.lumen_margin, s.preserve_lumen) = (0.0, false))),

@@ -43,6 +43,7 @@ fn sample() -> SessionFile {
         layout: "measure".into(),
         cross_hair: Some([1.0, 2.0, 3.0]),
         picked: Some(Picked { vessel: 0, at_mm: 1.5 }),
+        slices: None,
     };
     let session = Session {
         format: 1,
@@ -105,6 +106,23 @@ fn hidden_bone_comes_back_and_is_of_format_2() {
     assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
     let early = text.replace("\"format\":2", "\"format\":1");
     assert!(refused(&early).contains("found hidden bone in version 1; expected version 2"));
+}
+
+#[test]
+fn planes_of_slices_come_back_and_are_of_format_2() {
+    let mut file = sample();
+    let axes = |right, down| SliceAxes { right, down };
+    file.session.view.as_mut().unwrap().slices = Some(Slices {
+        axial: axes([0.8, 0.6, 0.0], [-0.6, 0.8, 0.0]),
+        coronal: axes([0.8, 0.6, 0.0], [0.0, 0.0, -1.0]),
+        sagittal: axes([-0.6, 0.8, 0.0], [0.0, 0.0, -1.0]),
+        slab: Some((10.0, "max".into())),
+    });
+    let text = written(&file);
+    file.session.format = 2;
+    assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
+    let early = text.replace("\"format\":2", "\"format\":1");
+    assert!(refused(&early).contains("found planes of slices in version 1; expected version 2"));
 }
 
 #[test]

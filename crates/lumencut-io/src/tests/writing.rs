@@ -170,6 +170,25 @@ fn vessels_of_a_file_come_back_to_the_bit() {
 }
 
 /// Lines of a file from another program are joined. Once this crate has written them, they are not.
+/// Points that a reader moved are marked in both formats that the viewer writes; other files have no such marks.
+#[test]
+fn points_moved_by_hand_are_marked_and_the_lines_come_back() {
+    let plain = fork(Some(0.5));
+    let mut lines = plain.clone();
+    lines[1].by_hand = Some((0..9).map(|n| n == 4).collect());
+    for (write, name) in FORMATS {
+        let text = String::from_utf8(write(&lines).unwrap()).unwrap();
+        let marked = text.split_once("ByHand").expect("marks").1.split(['<', ']']).next().unwrap();
+        assert_eq!(marked.matches("1.0").count(), 1, "{name}");
+        let back = vessels(read(text.as_bytes(), name).unwrap().scaled(1.0).unwrap());
+        assert_eq!(bits(&back.lines), bits(&plain), "{name}");
+        assert!(!String::from_utf8(write(&plain).unwrap()).unwrap().contains("ByHand"), "{name}");
+        let mut short = lines.clone();
+        short[1].by_hand = Some(vec![true]);
+        assert_eq!(write(&short).unwrap_err().subject, "points by hand of line 1");
+    }
+}
+
 #[test]
 fn the_mark_of_vessels_keeps_lines_apart() {
     let lines: Vec<Line> =

@@ -30,6 +30,20 @@ fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
     })
 }
 
+/// Name of the array or measurement that marks points that a reader moved.
+const BY_HAND: &str = "ByHand";
+
+/// 1 for points that a reader moved, otherwise 0. None if none was moved.
+fn moved(vessels: &[Line]) -> Option<Vec<f64>> {
+    vessels.iter().any(|vessel| vessel.by_hand.is_some()).then(|| {
+        let is_moved = |vessel: &Line, n: usize| vessel.by_hand.as_ref().is_some_and(|by_hand| by_hand[n]);
+        let of = |vessel: &Line| -> Vec<f64> {
+            (0..vessel.points.len()).map(|n| f64::from(is_moved(vessel, n))).collect()
+        };
+        vessels.iter().flat_map(of).collect()
+    })
+}
+
 pub(crate) fn check_all(vessels: &[Line]) -> Result<()> {
     if vessels.is_empty() {
         return Err(Error::new("vessels", "none", "at least one vessel"));
@@ -48,6 +62,10 @@ pub(crate) fn check_all(vessels: &[Line]) -> Result<()> {
         if let Some(confidence) = vessel.confidence.as_ref().filter(|confidence| confidence.len() != count) {
             let found = format!("{} for {count} points", confidence.len());
             return Err(Error::new(format!("confidence of line {index}"), found, "one number per point"));
+        }
+        if let Some(by_hand) = vessel.by_hand.as_ref().filter(|by_hand| by_hand.len() != count) {
+            let found = format!("{} for {count} points", by_hand.len());
+            return Err(Error::new(format!("points by hand of line {index}"), found, "one for each point"));
         }
         if let Some(radius) = vessel.radius.as_ref().filter(|radius| radius.len() != count) {
             let found = format!("{} radii for {count} points", radius.len());

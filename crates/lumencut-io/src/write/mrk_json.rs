@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{CONFIDENCE, check_all};
+use super::{BY_HAND, CONFIDENCE, check_all, moved};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 
@@ -45,7 +45,8 @@ fn control_point((i, point): (usize, &glam::DVec3)) -> String {
 fn measurements(vessel: &Line) -> String {
     let radius = vessel.radius.as_deref().map(|radius| measurement("Radius", "mm", radius));
     let confidence = vessel.confidence.as_deref().map(|numbers| measurement(CONFIDENCE, "", numbers));
-    let all: Vec<String> = radius.into_iter().chain(confidence).collect();
+    let by_hand = moved(std::slice::from_ref(vessel)).map(|numbers| measurement(BY_HAND, "", &numbers));
+    let all: Vec<String> = radius.into_iter().chain(confidence).chain(by_hand).collect();
     if all.is_empty() { String::new() } else { format!("\n    {}\n  ", all.join(",\n    ")) }
 }
 

@@ -1,13 +1,13 @@
 //! Writes VTK XML poly data (`.vtp`), one polyline per vessel, as text.
 
-use super::{CONFIDENCE, check_all, confidences};
+use super::{BY_HAND, CONFIDENCE, check_all, confidences, moved};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::{Error, Result};
 use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
 
 /// Writes a `.vtp` of vessels (mm, LPS). An end point of several vessels is repeated in each of them. The point
-/// arrays `MaximumInscribedSphereRadius` and `Confidence` hold radii and confidences; the cell array `Name` holds
-/// names. If only some vessels have radii or names, `HasRadius` and `HasName` mark those. Fails if no vessel is
+/// arrays `MaximumInscribedSphereRadius` and `Confidence` hold radii and confidences, `ByHand` is 1 where a reader moved the line;
+/// the cell array `Name` holds names. If only some vessels have radii or names, `HasRadius` and `HasName` mark those. Fails if no vessel is
 /// valid, or if a name has a null character, which ends text in VTK.
 pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
@@ -25,7 +25,7 @@ pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
          <PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Lines>\n{}</Lines>\n\
          </Piece>\n</PolyData>\n</VTKFile>\n",
-        radii(vessels) + &confidence(vessels),
+        radii(vessels) + &numbers(CONFIDENCE, confidences(vessels)) + &numbers(BY_HAND, moved(vessels)),
         names(vessels) + &which_have(HAS_RADIUS, vessels, |vessel| vessel.radius.is_some()),
         coordinates(vessels),
         cells(vessels, points),
@@ -56,9 +56,9 @@ fn radii(vessels: &[Line]) -> String {
     element("DataArray", "Float64", RADIUS_NAMES[0], "", rows)
 }
 
-fn confidence(vessels: &[Line]) -> String {
-    confidences(vessels).map_or_else(String::new, |numbers| {
-        element("DataArray", "Float64", CONFIDENCE, "", numbers.iter().map(|number| format!("{number:?}")))
+fn numbers(name: &str, numbers: Option<Vec<f64>>) -> String {
+    numbers.map_or_else(String::new, |numbers| {
+        element("DataArray", "Float64", name, "", numbers.iter().map(|number| format!("{number:?}")))
     })
 }
 

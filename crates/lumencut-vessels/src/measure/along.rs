@@ -9,6 +9,7 @@ pub(crate) mod contradicted;
 pub(crate) mod dim_plaque;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
+pub(crate) mod rings;
 pub(crate) mod struts;
 pub(crate) mod throats;
 

@@ -14,7 +14,6 @@ pub(crate) mod unsure_spread;
 
 use glam::{DVec2, DVec3};
 
-use crate::measure::beside::blooming::join_rings;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Section, center};
 use crate::measure::flap::OnLine;
@@ -130,6 +129,8 @@ pub struct Profile {
     pub wall_source: WallSource,
     /// Points of the centerline at the sections (mm, LPS).
     pub on_vessel: Vec<DVec3>,
+    /// Value of the volume on the centerline at each section.
+    pub line_values: Vec<f64>,
     /// End parts that were not measured because lumen and surroundings look alike (arc lengths, mm).
     pub without_wall: Vec<[f64; 2]>,
 }
@@ -148,8 +149,7 @@ impl Profile {
         };
         let middle = |n: usize| sections[n].fit.map_or(places[n].origin, |fit: Fit| center(&places[n], &fit));
         let arc_length: Vec<f64> = places.iter().map(|place| place.at).collect();
-        let mut flags: Vec<u32> = sections.iter().map(|section| section.flags).collect();
-        join_rings(&arc_length, &mut flags);
+        let flags: Vec<u32> = sections.iter().map(|section| section.flags).collect();
         let center: Vec<DVec3> = (0..places.len()).map(middle).collect();
         let contour: Vec<Vec<DVec3>> = sections.iter().map(|section| section.contour.clone()).collect();
         let axis = |fit: &Fit, n: usize| 2.0 * fit.ellipse.semi_axes()[n];
@@ -192,6 +192,7 @@ impl Profile {
             fwhm_deviation: spread.deviation,
             fwhm_source: spread.source,
             wall_source,
+            line_values: vec![f64::NAN; places.len()],
             without_wall: Vec::new(),
             arc_length,
             center,

@@ -211,7 +211,7 @@ impl Profile {
             .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
     }
 
-    /// Reasons to doubt a stenosis at arc length `at` with these references (mm), from the nearest sections.
+    /// Reasons to doubt a stenosis at arc length `at` with these references (mm), from the sections that are used.
     pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
         let place = self.nearest_section(at);
         // ECST needs no reference place.
@@ -219,8 +219,14 @@ impl Profile {
         let others: Vec<usize> = told_by.iter().map(|reference| self.nearest_section(*reference)).collect();
         let between = |other: usize| (place.min(other) + 1)..place.max(other);
         let is_branch = |n: usize| self.flags[n] & BRANCH != 0;
+        // A reference is the median of several sections.
+        let is_used = |n: &usize| {
+            let near = |at: &f64| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
+            self.counts(*n) && told_by.iter().any(near)
+        };
+        let used = (0..self.len()).filter(is_used);
         Doubts {
-            flags: others.iter().fold(self.flags[place], |flags, other| flags | self.flags[*other]),
+            flags: others.iter().copied().chain(used).fold(self.flags[place], |all, n| all | self.flags[n]),
             is_branch_between: others.iter().any(|other| between(*other).any(is_branch)),
         }
     }

@@ -97,8 +97,9 @@ impl Part {
     }
 }
 
-/// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen
-/// level are the same in all sections, so they add with their signs. Noise and surroundings are independent.
+/// Standard deviation of a weighted sum of diameters of one vessel. The error of the point spread is the same in all sections,
+/// so it adds with its sign. Walls differ along a vessel: if their errors added, too, only 88 % of the percentages of 120
+/// random stenoses were within two standard deviations, instead of 96 %.
 pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let together =
         |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);
@@ -107,8 +108,8 @@ pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let square: f64 = Part::ALL
         .into_iter()
         .map(|part| match part {
-            Part::Noise | Part::Surroundings => apart(part),
-            Part::PointSpread | Part::Wall | Part::Lumen => together(part),
+            Part::PointSpread => together(part),
+            Part::Noise | Part::Wall | Part::Lumen | Part::Surroundings => apart(part),
         })
         .sum();
     square.sqrt()
@@ -119,10 +120,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrong_everywhere_is_not_wrong_of_a_difference() {
+    fn only_the_error_of_the_point_spread_cancels_in_a_difference() {
         let parts = Parts { noise: 0.03, point_spread: -0.1, wall: 0.2, lumen: 0.05, surroundings: 0.04 };
         let same = deviation_of_sum(&[(1.0, parts), (-1.0, parts)]);
-        assert!((same - 0.05 * 2.0_f64.sqrt()).abs() < 1e-12);
+        let own = Parts { point_spread: 0.0, ..parts };
+        assert!((same - own.total() * 2.0_f64.sqrt()).abs() < 1e-12);
         assert!((deviation_of_sum(&[(1.0, parts)]) - parts.total()).abs() < 1e-12);
     }
 }

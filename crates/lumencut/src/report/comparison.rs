@@ -2,21 +2,22 @@
 
 use std::fmt::Write;
 
+use lumencut_core::error::Result;
 use lumencut_vessels::measure::comparison::{ComparedPlace, DEVIATIONS};
 
 use super::STYLE;
 use super::curves::{Axes, band, line};
 use super::frame::{MARGINS, TICK_DISTANCES, axis_along};
-use super::markup::{escaped, paragraph};
+use super::markup::{escaped, figure, paragraph};
 use super::plot::{QUIET, WIDTH};
 use super::scale::Axis;
 use crate::comparison::{Compared, signed};
 use crate::profile_json::NOTICE;
 use crate::text::{fixed, rounded};
 
-/// Heights of the chart of diameters and of the chart of differences below it (plot pixels).
-const DIAMETERS: f64 = 230.0;
-const DIFFERENCES: f64 = 170.0;
+/// Height of both charts in a report (plot pixels), and the share of the upper one, which shows the diameters.
+const HEIGHT: f64 = 400.0;
+const DIAMETERS: f64 = 0.575;
 /// The axes reach this much beyond the largest value.
 const HEADROOM: f64 = 1.12;
 /// Smallest end of the axis of differences (mm).
@@ -26,31 +27,38 @@ const COLORS: [&str; 2] = ["#1f4e9c", "#b3470b"];
 const DIFFERENCE: &str = "#222222";
 const CHANGED: &str = "#d7263d";
 
-/// The report as HTML, a page for each vessel.
-pub fn comparison_html(vessels: &[Compared]) -> String {
-    let pages: String = vessels.iter().map(page).collect();
-    format!(
+/// The report as HTML, a page for each vessel. Fails with an error of kind `settings` for pictures that are not base64.
+pub fn comparison_html(vessels: &[Compared]) -> Result<String> {
+    let pages = vessels.iter().map(page).collect::<Result<String>>()?;
+    Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Lumencut: two scans compared\
          </title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{pages}</body>\n</html>\n"
-    )
+    ))
 }
 
-fn page(vessel: &Compared) -> String {
+fn page(vessel: &Compared) -> Result<String> {
     let [before, after] = vessel.scans.each_ref().map(|scan| escaped(scan));
     let doubts: String = vessel.doubts.iter().map(|words| paragraph("doubt", words)).collect();
     let typical = format!("Median difference: {} mm.", signed(vessel.comparison.typical));
-    format!(
-        "<section>\n<h1>{}: before and after</h1>\n{}<p>Before: {before}. After: {after}.</p>\n{doubts}{}\
+    Ok(format!(
+        "<section>\n<h1>{}: before and after</h1>\n{}<p>Before: {before}. After: {after}.</p>\n{doubts}{}{}\
          <figure class=\"plot\">\n{}<figcaption>Diameters of both scans, and the difference, by the arc length on the earlier \
          scan; bands: ± {DEVIATIONS} standard deviations; red: changed</figcaption>\n</figure>\n{}{}{}</section>\n",
         escaped(&vessel.vessel),
         paragraph("notice", NOTICE),
         findings(vessel),
-        plot(vessel),
+        pictures(vessel)?,
+        plot(vessel, [WIDTH, HEIGHT]),
         table(vessel),
         paragraph("small", &typical),
         paragraph("small", &format!("The vessels were {}.", vessel.matched())),
-    )
+    ))
+}
+
+fn pictures(vessel: &Compared) -> Result<String> {
+    let both = vessel.pictures.iter().zip(["Before", "After"]);
+    let figures = both.map(|(picture, words)| figure(picture, words)).collect::<Result<String>>()?;
+    Ok(if figures.is_empty() { figures } else { format!("<div class=\"top both\">\n{figures}</div>\n") })
 }
 
 fn findings(vessel: &Compared) -> String {
@@ -75,15 +83,25 @@ fn table(vessel: &Compared) -> String {
     )
 }
 
-fn plot(vessel: &Compared) -> String {
+/// The charts of diameters and differences as an SVG picture of this size (plot pixels), and their common axis of arc lengths on the
+/// earlier vessel.
+pub(crate) fn comparison_chart(vessel: &Compared, size: [f64; 2]) -> (String, Axis) {
+    let plot = plot(vessel, size).replacen("<svg ", "<svg xmlns=\"http://www.w3.org/2000/svg\" ", 1);
+    (plot, axis(vessel, size[0]))
+}
+
+fn axis(vessel: &Compared, width: f64) -> Axis {
+    axis_along(vessel.comparison.places.last().map_or(0.0, |place| place.at[0]), width)
+}
+
+fn plot(vessel: &Compared, [width, height]: [f64; 2]) -> String {
     let places = &vessel.comparison.places;
     let at: Vec<f64> = places.iter().map(|place| place.at[0]).collect();
-    let length = at.last().copied().unwrap_or_default();
-    let x = axis_along(length, WIDTH);
+    let x = axis(vessel, width);
+    let border = DIAMETERS * height;
     let mut svg = format!(
-        "<svg viewBox=\"0 0 {WIDTH} {}\" role=\"img\" aria-label=\"diameters in both scans\" font-size=\"11\" \
-         font-family=\"system-ui, sans-serif\" fill=\"#111111\">\n",
-        DIAMETERS + DIFFERENCES
+        "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"diameters in both scans\" font-size=\"11\" \
+         font-family=\"system-ui, sans-serif\" fill=\"#111111\">\n"
     );
     let spread = |value: &dyn Fn(&ComparedPlace) -> [f64; 2], sign: f64| -> Vec<f64> {
         places.iter().map(|place| value(place)[0] + sign * DEVIATIONS * value(place)[1]).collect()
@@ -91,7 +109,7 @@ fn plot(vessel: &Compared) -> String {
     let widest = |n: usize| spread(&move |place| [place.diameter[n], place.uncertainty[n]], 1.0);
     let top = [widest(0), widest(1)].concat().into_iter().filter(|value| value.is_finite());
     let top = HEADROOM * top.fold(1.0, f64::max);
-    let axes = Axes { x, y: Axis { low: 0.0, high: top, start: DIAMETERS - 8.0, end: MARGINS.above } };
+    let axes = Axes { x, y: Axis { low: 0.0, high: top, start: border - 8.0, end: MARGINS.above } };
     push_axes(&mut svg, &axes, "diameter (mm)");
     for n in 0..2 {
         let of = move |place: &ComparedPlace| [place.diameter[n], place.uncertainty[n]];
@@ -107,13 +125,12 @@ fn plot(vessel: &Compared) -> String {
     let [low, middle, high] = [-1.0, 0.0, 1.0].map(|sign| spread(&of, sign));
     let far = low.iter().chain(&high).filter(|value| value.is_finite());
     let far = HEADROOM * far.fold(LEAST_DIFFERENCE, |far: f64, value| far.max(value.abs()));
-    let y =
-        Axis { low: -far, high: far, start: DIAMETERS + DIFFERENCES - MARGINS.below, end: DIAMETERS + 12.0 };
+    let y = Axis { low: -far, high: far, start: height - MARGINS.below, end: border + 12.0 };
     let axes = Axes { x, y };
     push_axes(&mut svg, &axes, "difference (mm)");
     push_changes(&mut svg, vessel, &axes);
     push_curve(&mut svg, &axes, &at, [&low, &middle, &high], DIFFERENCE);
-    push_legend(&mut svg, &vessel.scans);
+    push_legend(&mut svg, &vessel.scans, width);
     svg.push_str("</svg>\n");
     svg
 }
@@ -183,9 +200,10 @@ fn push_changes(svg: &mut String, vessel: &Compared, Axes { x, y }: &Axes) {
     }
 }
 
-fn push_legend(svg: &mut String, scans: &[String; 2]) {
+fn push_legend(svg: &mut String, scans: &[String; 2], width: f64) {
+    let apart = (width - MARGINS.left) / 2.0;
     for (n, (scan, color)) in scans.iter().zip(COLORS).enumerate() {
-        let (left, words) = (MARGINS.left + 420.0 * n as f64, escaped(scan));
+        let (left, words) = (MARGINS.left + apart * n as f64, escaped(scan));
         let name = ["before", "after"][n];
         push(
             svg,

@@ -6,10 +6,11 @@ use serde::Serialize;
 use super::markup::paragraph;
 use super::method_text::Stated;
 use super::{Lengths, Shown, VesselPage};
-use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_flap_stretch, of_outer_stretch, of_stenosis};
+use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_flap_stretch, of_outer_stretch};
+use crate::narrower::narrower;
 use crate::not_measured::not_measured;
 use crate::not_suggested::not_suggested;
-use crate::profile_marks::{Grade, Measured};
+use crate::profile_marks::Measured;
 use crate::text::fixed;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -33,11 +34,14 @@ pub(crate) struct Sentence {
 pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
     let sentence = |kind, words: &str| Sentence { kind, words: stated.with_units(words) };
     let graded = match measured.grade {
-        Some(Grade::NotGraded(reason)) => vec![sentence(Kind::Finding, &format!("No percentage: {reason}"))],
-        Some(Grade::Graded { stenosis, group }) => {
-            let doubts = of_doubts(&stenosis.doubts).into_iter().map(|words| sentence(Kind::Doubt, &words));
-            let group = group.iter().map(|group| sentence(Kind::Remark, &format!("Severity group: {group}")));
-            [sentence(Kind::Finding, &of_stenosis(stenosis))].into_iter().chain(doubts).chain(group).collect()
+        Some(grade) => {
+            let headline = sentence(Kind::Finding, &grade.headline(measured.profile));
+            let doubts = grade.stenosis().map(|stenosis| of_doubts(&stenosis.doubts)).unwrap_or_default();
+            let narrower = grade.at().and_then(|at| narrower(measured.profile, Some(at)));
+            let doubts = doubts.iter().chain(&narrower).map(|words| sentence(Kind::Doubt, words));
+            let group =
+                grade.group().map(|group| sentence(Kind::Remark, &format!("Severity group: {group}")));
+            [headline].into_iter().chain(doubts).chain(group).collect()
         }
         None if !lengths.diameters.is_empty() => Vec::new(),
         None => not_suggested(measured.profile, None, &[])

@@ -13,7 +13,7 @@ use lumencut_core::volume::Volume;
 use serde::Serialize;
 
 use crate::defaults::pixel_side;
-use crate::doubted_scan::doubted_size;
+use crate::doubted_scan::doubted_grid;
 use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
@@ -263,7 +263,7 @@ impl VolumeReport {
             smallest_side: volume.smallest_side(),
             pixel_side: pixel_side(volume.smallest_side()),
             scan: held.scan.words(),
-            doubt: doubted_size(held.size, held.world_from_index),
+            doubt: doubted_grid(held.size, held.world_from_index),
         })
     }
 }

@@ -8,6 +8,7 @@ use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
+use crate::study::reshaping::Reshaping;
 use crate::study::trace_report::DoubtfulPlace;
 use crate::study::tracing::{HeldLine, TraceRequest, Watch};
 
@@ -42,6 +43,13 @@ impl Study {
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
             Edit::Join { id, other } => self.join_vessels(&mut draft, *id, *other).map(|()| false),
+            Edit::Bend { id, at, to } => {
+                let how = Reshaping::Bend { at: *at, to: *to };
+                self.reshape_vessel(&mut draft, *id, &how).map(|()| false)
+            }
+            Edit::Smooth { id, sigma } => {
+                self.reshape_vessel(&mut draft, *id, &Reshaping::Smooth { sigma: *sigma }).map(|()| false)
+            }
             Edit::AddClickOnLine { id, point } => {
                 self.add_click_on_line(&mut draft, *id, *point).map(|()| true)
             }
@@ -166,6 +174,8 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
         | Edit::AddMask
         | Edit::Cut { .. }
         | Edit::Join { .. }
+        | Edit::Bend { .. }
+        | Edit::Smooth { .. }
         | Edit::AddClickOnLine { .. } => {}
     }
     edit.is_of_clicks()

@@ -59,6 +59,18 @@ pub(crate) enum Edit {
         id: u32,
         at: f64,
     },
+    /// Moves the line of a vessel by hand, from an arc length to a place. It then has no clicks; the ends of vessels that meet
+    /// it follow.
+    Bend {
+        id: u32,
+        at: f64,
+        to: WorldPoint,
+    },
+    /// Smooths the line of a vessel by a Gaussian (standard deviation in mm), in the same way.
+    Smooth {
+        id: u32,
+        sigma: f64,
+    },
     /// Joins a second vessel to the first, which keeps name and colour.
     Join {
         id: u32,
@@ -138,6 +150,8 @@ impl Edit {
             Self::HideBone { hidden: false } => "show bone",
             Self::Cut { .. } => "cut a vessel",
             Self::Join { .. } => "join two vessels",
+            Self::Bend { .. } => "move a line",
+            Self::Smooth { .. } => "smooth a line",
             Self::Remove { ids } => count(ids, "delete a vessel", "delete vessels"),
             Self::AddBranches { .. } => "add all branches from here",
             Self::AddWholeVessel { .. } => "add a whole vessel",

@@ -7,6 +7,7 @@ use lumencut_core::scene::{SharedVolume, VolumeKey};
 use lumencut_core::volume::Volume;
 use serde::Deserialize;
 
+use crate::mask_grid::Grid;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::{Failure, Result};
 use crate::study::voxels::Stored;
@@ -40,6 +41,10 @@ impl VolumeHeader {
         let held = HeldVolume { stored, size, world_from_index, key, scan };
         held.volume()?;
         Ok(held)
+    }
+
+    pub(crate) fn grid(&self) -> Grid {
+        Grid { size: self.size, world_from_index: self.affine() }
     }
 
     fn affine(&self) -> DAffine3 {

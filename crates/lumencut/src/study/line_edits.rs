@@ -24,6 +24,7 @@ pub(super) struct Knot {
     radius: f64,
     confidence: f64,
     is_bridged: bool,
+    is_by_hand: bool,
 }
 
 impl Knot {
@@ -34,6 +35,7 @@ impl Knot {
             radius: mixed(self.radius, other.radius),
             confidence: mixed(self.confidence, other.confidence),
             is_bridged: self.is_bridged && other.is_bridged,
+            is_by_hand: self.is_by_hand || other.is_by_hand,
         }
     }
 }
@@ -95,6 +97,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
             .clone()
             .or_else(|| second.bridged.clone())
             .or((distance > GAP_STEP).then(Vec::new)),
+        by_hand: first.by_hand.clone().or_else(|| second.by_hand.clone()),
     };
     Ok(with_knots(&joined, &has))
 }
@@ -124,6 +127,7 @@ pub(super) fn knots(line: &Line) -> Vec<Knot> {
         radius: line.radius.as_ref().map_or(f64::NAN, |radius| radius[n]),
         confidence: line.confidence.as_ref().map_or(1.0, |confidence| confidence[n]),
         is_bridged: line.bridged.as_ref().is_some_and(|bridged| bridged[n]),
+        is_by_hand: line.by_hand.as_ref().is_some_and(|by_hand| by_hand[n]),
     };
     line.points.iter().enumerate().map(knot).collect()
 }
@@ -135,5 +139,6 @@ pub(super) fn with_knots(knots: &[Knot], like: &Line) -> Line {
         radius: like.radius.as_ref().map(|_| knots.iter().map(|knot| knot.radius).collect()),
         confidence: like.confidence.as_ref().map(|_| knots.iter().map(|knot| knot.confidence).collect()),
         bridged: like.bridged.as_ref().map(|_| knots.iter().map(|knot| knot.is_bridged).collect()),
+        by_hand: like.by_hand.as_ref().map(|_| knots.iter().map(|knot| knot.is_by_hand).collect()),
     }
 }

@@ -44,6 +44,7 @@ pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
         radius: known(|line| line.radius.is_some()).then(Vec::new),
         confidence: known(|line| line.confidence.is_some()).then(Vec::new),
         bridged: known(|line| line.bridged.is_some()).then(Vec::new),
+        by_hand: lines.iter().any(|line| line.by_hand.is_some()).then(Vec::new),
     };
     Ok(with_knots(&joined, &like))
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_io as centerlines;
 use lumencut_vessels::trace::clicks::Traced;
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::study::failure::Result;
 use crate::study::outlines::Contour;
 
-/// A vessel line: its points, with radius, confidence and bridging of each point.
+/// A vessel line: its points, with radius, confidence, bridging and moves by hand of each point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// At least two points (mm, LPS).
@@ -24,6 +25,8 @@ pub struct Line {
     pub confidence: Option<Vec<f64>>,
     /// Whether each point lies on a bridged stretch without lumen, if known.
     pub bridged: Option<Vec<bool>>,
+    /// Whether the reader moved each point by hand; None if none was moved.
+    pub by_hand: Option<Vec<bool>>,
 }
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -37,6 +40,9 @@ pub(crate) struct LineContent {
     confidence: Option<Vec<f64>>,
     /// Whether each point lies on a bridged stretch without lumen, if known.
     bridged: Option<Vec<bool>>,
+    /// Whether the reader moved each point by hand; null if none was moved.
+    #[serde(default)]
+    by_hand: Option<Vec<bool>>,
 }
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -73,6 +79,7 @@ impl Line {
             radius: self.known_radius(),
             name: (!name.is_empty()).then(|| name.to_owned()),
             confidence: self.confidence.clone(),
+            by_hand: self.by_hand.clone(),
             ..centerlines::Line::default()
         }
     }
@@ -96,7 +103,22 @@ impl Line {
             radius: self.radius.as_ref().map(|radius| radius.iter().map(known).collect()),
             confidence: self.confidence.clone(),
             bridged: self.bridged.clone(),
+            by_hand: self.by_hand.clone(),
         }
+    }
+
+    /// Arc lengths (mm) of the ends of each stretch that the reader moved.
+    pub(crate) fn stretches_by_hand(&self) -> Vec<[f64; 2]> {
+        let by_hand = self.by_hand.as_deref().unwrap_or_default();
+        let lengths = arc_lengths(&self.points);
+        let mut stretches: Vec<[f64; 2]> = Vec::new();
+        for (n, length) in lengths.iter().enumerate().filter(|(n, _)| by_hand.get(*n) == Some(&true)) {
+            match stretches.last_mut() {
+                Some(last) if n > 0 && by_hand[n - 1] => last[1] = *length,
+                _ => stretches.push([*length; 2]),
+            }
+        }
+        stretches
     }
 
     fn check(&self) -> Result<()> {
@@ -106,6 +128,7 @@ impl Line {
             ("radius", self.radius.as_ref().map(Vec::len)),
             ("confidence", self.confidence.as_ref().map(Vec::len)),
             ("bridged", self.bridged.as_ref().map(Vec::len)),
+            ("by hand", self.by_hand.as_ref().map(Vec::len)),
         ];
         for (name, length) in lengths {
             if let Some(length) = length.filter(|length| *length != count) {
@@ -125,6 +148,7 @@ impl From<LineContent> for Line {
             radius: content.radius.map(|radius| radius.iter().map(known).collect()),
             confidence: content.confidence,
             bridged: content.bridged,
+            by_hand: content.by_hand,
         }
     }
 }
@@ -132,7 +156,7 @@ impl From<LineContent> for Line {
 impl From<Centerline> for Line {
     fn from(Centerline { points, radius, confidence }: Centerline) -> Self {
         let confidence = (!confidence.is_empty()).then_some(confidence);
-        Self { points, radius: Some(radius), confidence, bridged: None }
+        Self { points, radius: Some(radius), confidence, ..Self::default() }
     }
 }
 

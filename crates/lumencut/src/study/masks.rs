@@ -34,11 +34,18 @@ pub(crate) struct MaskLines {
 }
 
 impl Study {
+    /// Fails with an error of kind `volume` if a volume with this header is no mask of the open scan.
+    pub fn check_mask(&self, header: &str) -> Result<()> {
+        let scan = self.content.held.as_ref().ok_or_else(no_volume)?;
+        place_of(&VolumeHeader::read(header)?.grid(), &Grid::from(&scan.volume()?))?;
+        Ok(())
+    }
+
     /// Allocates memory for a mask, whose voxels then follow as bytes. Fails with an error of kind `volume` if no
-    /// scan is open, memory is insufficient, or the grid is invalid.
+    /// scan is open, memory is insufficient, or the grid does not suit that of the scan.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
-        self.content.held.as_ref().ok_or_else(no_volume)?;
+        self.check_mask(header)?;
         let header = VolumeHeader::read(header)?;
         self.mask = Some(HeldMask { held: header.held()?, label_names: header.label_names });
         Ok(())

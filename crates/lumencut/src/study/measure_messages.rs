@@ -5,6 +5,7 @@ use crate::measure_words::{
     of_bounds_at, of_c_arm, of_doubts, of_flags, of_flap_stretch, of_lumens_at, of_outer_at,
     of_outer_stretch, of_source, of_stenosis, of_wall,
 };
+use crate::narrower::narrower;
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_json::Asked;
@@ -187,13 +188,18 @@ impl MarksMessage {
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Grade"))]
 pub(crate) struct GradeMessage {
     stenosis: Option<StenosisMessage>,
+    /// The diameter, if a place is marked, and why there is no percentage.
     not_graded: Option<String>,
+    /// A place that is narrower than the marked one, in one sentence.
+    narrower: Option<String>,
 }
 
-impl From<Option<Grade>> for GradeMessage {
-    fn from(grade: Option<Grade>) -> Self {
-        let not_graded = grade.as_ref().and_then(Grade::not_graded).map(str::to_owned);
-        Self { stenosis: grade.as_ref().and_then(StenosisMessage::of), not_graded }
+impl GradeMessage {
+    pub(crate) fn of(marked: &Marked, profile: &Profile) -> Self {
+        let Some(grade) = marked.grade(profile) else { return Self::default() };
+        let not_graded = grade.not_graded().map(|_| grade.headline(profile));
+        let narrower = grade.at().and_then(|at| narrower(profile, Some(at)));
+        Self { stenosis: StenosisMessage::of(&grade), not_graded, narrower }
     }
 }
 

@@ -7,7 +7,7 @@ use lumencut_core::frame::Frame;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
-use lumencut_core::settings::{Settings, Window};
+use lumencut_core::settings::{Settings, Slab, Window};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::with_voxels;
@@ -90,7 +90,7 @@ impl Study {
     }
 
     pub(crate) fn slice(&self, plane: &Plane, window: [f64; 2]) -> Result<Picture> {
-        self.shown(plane.geometry()?, window)
+        self.shown(plane.geometry()?, (window, plane.slab()?))
     }
 
     /// The section at an arc length (mm), clamped to the ends: centre and unit vectors right and down. If the vessel was measured,
@@ -112,10 +112,15 @@ impl Study {
         })
     }
 
-    pub(crate) fn shown(&self, geometry: Geometry, window: [f64; 2]) -> Result<Picture> {
+    pub(crate) fn shown(
+        &self,
+        geometry: Geometry,
+        (window, slab): ([f64; 2], Option<Slab>),
+    ) -> Result<Picture> {
         let size = geometry.size();
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
-        let (camera, settings) = shown_flat(window)?;
+        let (camera, flat) = shown_flat(window)?;
+        let settings = Settings { slab, ..flat };
         let request = Request { images: ImageSet::of(&[Image::Picture]), ..Request::new(&camera, &settings) };
         let frame = self.cpu.look(&volume, Frame::of(geometry), &request)?;
         Ok(Picture { size, bytes: frame.image.into_flattened() })

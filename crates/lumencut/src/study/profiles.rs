@@ -16,15 +16,21 @@ use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::lines::wrong;
 
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct ByHand {
+    pub(crate) outlines: Vec<Outline>,
+    /// Arc lengths (mm) of the ends of the stretches of the line that were moved.
+    pub(crate) stretches: Vec<[f64; 2]>,
+}
+
 #[derive(Default)]
 pub(crate) struct Profiles {
     listed: Vec<usize>,
     kept: KeptProfiles<usize>,
     /// The last requested point-spread width of each line.
     widths: HashMap<usize, Option<f64>>,
-    /// The contours that were drawn by hand on each line.
-    outlines: Vec<(usize, Vec<Outline>)>,
-    /// The profiles with these contours, by cache index.
+    by_hand: Vec<(usize, ByHand)>,
+    /// The profiles with it, by cache index.
     drawn: Vec<(usize, Profile)>,
 }
 
@@ -53,22 +59,22 @@ impl Profiles {
             stop: parameters.stop,
         };
         let number = self.kept.of(line, &tree[number], Scan { volume, tree }, &parameters)?;
-        let outlines = self.outlines.iter().find(|(own, _)| *own == line);
-        if let Some((_, outlines)) = outlines.filter(|_| self.drawn.iter().all(|(own, _)| *own != number)) {
+        let by_hand = self.by_hand.iter().find(|(own, _)| *own == line);
+        if let Some((_, made)) = by_hand.filter(|_| self.drawn.iter().all(|(own, _)| *own != number)) {
             let side = volume.world_from_index().matrix3.determinant().abs().cbrt();
-            self.drawn.push((number, self.kept.kept(number).drawn(outlines, side)));
+            let drawn = self.kept.kept(number).drawn(&made.outlines, side);
+            self.drawn.push((number, drawn.with_line_by_hand(&made.stretches)));
         }
         Ok(number)
     }
 
-    /// Replaces the contours that were drawn by hand on a line.
-    pub(crate) fn draw(&mut self, line: usize, outlines: Vec<Outline>) {
-        let known = self.outlines.iter().position(|(own, _)| *own == line);
-        if known.map_or(outlines.is_empty(), |known| self.outlines[known].1 == outlines) {
+    pub(crate) fn draw(&mut self, line: usize, made: ByHand) {
+        let known = self.by_hand.iter().position(|(own, _)| *own == line);
+        if known.map_or(made == ByHand::default(), |known| self.by_hand[known].1 == made) {
             return;
         }
-        self.outlines.retain(|(own, _)| *own != line);
-        self.outlines.push((line, outlines));
+        self.by_hand.retain(|(own, _)| *own != line);
+        self.by_hand.push((line, made));
         self.drawn.clear();
     }
 

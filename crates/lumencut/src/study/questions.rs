@@ -32,11 +32,13 @@ use crate::study::planes::Plane;
 use crate::study::reformations::{ReformationMessage, ReformedPicture};
 use crate::study::regions::{RegionRow, regions};
 use crate::study::report_messages::{Findings, ReportMessage};
+use crate::study::reshaping::Reshaping;
 use crate::study::session_files::SessionContent;
 use crate::study::settings::{LookRow, SettingRow, looks, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
+use crate::study::two_scans::{ComparedScans, MotionMessage, ScansMessage};
 use crate::study::view::{CameraMessage, ViewMessage, views_between};
 use crate::study::whole_vessel::WholeVessel;
 
@@ -138,6 +140,14 @@ of_the_study {
     /// The points of a line, with their radii and other data.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
 
+    /// The points of a line after a move by hand from an arc length (mm) to a place. Nothing is kept.
+    [Turn::First] bent { line: usize, at: f64, to: Vector } -> Vec<Vector> =
+        study.reshaped(line, &Reshaping::Bend { at, to })?;
+
+    /// The points of a line after smoothing by a Gaussian (standard deviation in mm). Nothing is kept.
+    [Turn::First] smoothed { line: usize, sigma: f64 } -> Vec<Vector> =
+        study.reshaped(line, &Reshaping::Smooth { sigma })?;
+
     /// Adds a line, such as a line of a saved session; returns the number that it gets.
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;
 
@@ -159,7 +169,7 @@ of_the_study {
 
     /// The result at a line's marked place: the stenosis, or why it is not graded.
     [Turn::First] grade { line: usize, marks: MarksMessage } -> GradeMessage =
-        marks.marked()?.grade(measured(study, line, asking)?).into();
+        GradeMessage::of(&marks.marked()?, measured(study, line, asking)?);
 
     /// The doubts that a percentage would have if it were graded from these places, one sentence each.
     [Turn::First] doubts { line: usize, compared: ComparedMessage } -> Vec<String> =
@@ -241,6 +251,16 @@ at_once {
     /// The views of a flight between two cameras, at equal time steps, including both cameras.
     flight { from: CameraMessage, to: CameraMessage, views: usize } -> Vec<CameraMessage> =
         views_between(&from, &to, views)?;
+
+    /// The motion from one scan to another, from their corners and from pairs of points that belong together.
+    motion_between { corners: [Vec<Vector>; 2], pairs: Vec<[Vector; 2]> } -> MotionMessage =
+        MotionMessage::between(&corners, &pairs)?;
+
+    /// A vessel in two scans, compared, with charts of this size (plot pixels).
+    compare_scans { scans: ScansMessage, size: [f64; 2] } -> ComparedScans = scans.answer(size)?;
+
+    /// The comparison of a vessel in two scans as a file, as of `lumencut compare-scans`.
+    comparison_file { scans: ScansMessage, kind: String } -> String = scans.file(&kind)?;
 
     /// The table of settings.
     settings_table(_nothing: ()) -> Vec<SettingRow> = rows();

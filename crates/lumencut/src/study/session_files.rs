@@ -10,6 +10,7 @@ use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::HeldVolume;
 use crate::study::lines::{Line, Lines, NamedLine};
 use crate::study::open_study::Study;
+use crate::study::planes::check_slices;
 
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
 
@@ -34,8 +35,9 @@ pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>>
         let line = lines.get(named.line)?;
         state.confidence.clone_from(&line.confidence);
         state.bridged.clone_from(&line.bridged);
-        // The session stores confidence with the vessel, so the line omits it.
-        file.lines.push(centerlines::Line { confidence: None, ..line.in_file(&named.name) });
+        state.by_hand.clone_from(&line.by_hand);
+        // The session stores both with the vessel, so the line omits them.
+        file.lines.push(centerlines::Line { confidence: None, by_hand: None, ..line.in_file(&named.name) });
     }
     for (named, branch) in doubtful_lines.iter().zip(&mut file.session.doubtful) {
         let line = lines.get(named.line)?.in_file(&named.name);
@@ -81,6 +83,9 @@ impl Study {
             let found = format!("a session of a scan of {ni} × {nj} × {nk} voxels in another place");
             return Err(not_of_scan(name, &found, "a session of the open scan"));
         }
+        if let Some(slices) = file.session.view.as_ref().and_then(|view| view.slices.as_ref()) {
+            check_slices(slices)?;
+        }
         taken(file, &mut self.lines)
     }
 }
@@ -106,6 +111,7 @@ fn taken(file: SessionFile, lines: &mut Lines) -> Result<SessionContent> {
             radius: curve.radius,
             confidence: state.confidence.take(),
             bridged: state.bridged.take(),
+            by_hand: state.by_hand.take(),
         };
         named.push(NamedLine { line: lines.add(line)?, name: curve.name.unwrap_or_default() });
     }
@@ -115,7 +121,7 @@ fn taken(file: SessionFile, lines: &mut Lines) -> Result<SessionContent> {
         (kept.color, kept.doubt) = (branch.color, branch.doubt);
         let points = branch.points.into_iter().map(Into::into).collect();
         let (radius, confidence) = (branch.radius, branch.confidence);
-        let line = lines.add(Line { points, radius, confidence, bridged: None })?;
+        let line = lines.add(Line { points, radius, confidence, ..Line::default() })?;
         doubtful_lines.push(NamedLine { line, name: branch.name });
     }
     let text = session.json()?;
@@ -136,6 +142,7 @@ mod tests {
             radius: Some(vec![1.5, 1.25]),
             confidence: Some(vec![1.0, 0.5]),
             bridged,
+            by_hand: None,
         }
     }
 

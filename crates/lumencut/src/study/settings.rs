@@ -133,7 +133,13 @@ fn slab(json: &Json) -> Result<Option<Slab>> {
     let Ok((thickness, mode)) = serde_json::from_value::<(f64, String)>(json.clone()) else {
         return Ok(None);
     };
-    Ok(Some(Slab { thickness, mode: SlabMode::named("slab mode", &mode)? }))
+    slab_of(thickness, &mode).map(Some)
+}
+
+pub(super) fn slab_of(thickness: f64, mode: &str) -> Result<Slab> {
+    let slab = Slab { thickness, mode: SlabMode::named("slab mode", mode)? };
+    slab.check()?;
+    Ok(slab)
 }
 
 #[cfg(test)]

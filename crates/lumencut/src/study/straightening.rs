@@ -47,7 +47,7 @@ impl Study {
             Some(feature) => {
                 self.aggregated(&laid, (message.pixel_spacing, feature.into()), (window, stop))?
             }
-            None => self.shown(Geometry::Curved(laid.cpr.curved(stop)?), window)?,
+            None => self.shown(Geometry::Curved(laid.cpr.curved(stop)?), (window, None))?,
         };
         self.laid = Some(laid);
         Ok(picture)

@@ -21,6 +21,7 @@ use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 use crate::study::outlines::drawn_outlines;
+use crate::study::profiles::ByHand;
 
 /// Controls long work: stops it and receives its progress.
 #[derive(Clone, Copy)]
@@ -187,7 +188,8 @@ impl Study {
             Some(NamedTree::new(tree, names, lines).among(all))
         };
         for (one, outlines) in listed.iter().zip(outlines) {
-            self.profiles.draw(one.line, outlines);
+            let stretches = self.lines.get(one.line)?.stretches_by_hand();
+            self.profiles.draw(one.line, ByHand { outlines, stretches });
         }
         self.laid = None;
         self.reformed = None;

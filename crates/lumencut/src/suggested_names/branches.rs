@@ -2,6 +2,7 @@
 
 use crate::suggested_names::given::Given;
 use crate::suggested_names::graph::{Course, Graph, Way};
+use crate::suggested_names::legs::name_leg;
 use crate::suggested_names::trunk::{BRANCH, Bifurcation, Branch};
 use crate::vessel_names::Side;
 
@@ -169,7 +170,8 @@ fn name_iliacs(graph: &Graph, leg: Way, side: Side, given: &mut Given) {
                 Some(side),
                 INTERNAL_ILIAC,
             );
-            given.name(graph, &external.ways, "external iliac artery", Some(side), EXTERNAL_ILIAC);
+            let end = name_leg(graph, external.ways[0], side, given).min(EXTERNAL_ILIAC);
+            given.name(graph, &external.ways, "external iliac artery", Some(side), end);
             return;
         }
     }

@@ -2,7 +2,7 @@ use glam::DVec3;
 use lumencut_vessels::measure::comparison::compare;
 use lumencut_vessels::measure::profile::Profile;
 
-use super::Compared;
+use super::{Compared, signed};
 use crate::report::comparison::comparison_html;
 use crate::tube::tube;
 
@@ -25,7 +25,13 @@ fn compared_by(grown: f64, check: impl Fn(&Compared)) {
     let comparison = compare(&first, &second, &[[middle, middle]]).expect("the same vessel");
     let scans = ["2024 <i>".to_owned(), "2026".to_owned()];
     let doubts = vec!["another patient?".to_owned()];
-    check(&Compared { vessel: "Aorta".to_owned(), scans, comparison: &comparison, doubts });
+    check(&Compared {
+        vessel: "Aorta".to_owned(),
+        scans,
+        comparison: &comparison,
+        doubts,
+        pictures: Vec::new(),
+    });
 }
 
 #[test]
@@ -44,7 +50,7 @@ fn words_table_json_and_report_state_the_same_change() {
         let json: serde_json::Value = serde_json::from_str(&compared.json()).expect("JSON");
         assert_eq!(json["changes"].as_array().expect("changes").len(), 1);
         assert_eq!(json["scans"][1], "2026");
-        let html = comparison_html(std::slice::from_ref(compared));
+        let html = comparison_html(std::slice::from_ref(compared)).expect("a report");
         assert!(
             html.contains("2024 &lt;i&gt;") && html.contains("class=\"change\"") && !html.contains("NaN")
         );
@@ -57,6 +63,13 @@ fn without_a_change_they_say_so() {
     compared_by(1.0, |compared| {
         assert_eq!(compared.lines()[1], "no change beyond 2 standard deviations of both diameters");
         assert!(compared.csv().lines().skip(1).all(|row| row.ends_with(",0")));
-        assert!(comparison_html(std::slice::from_ref(compared)).contains("No change beyond 2"));
+        assert!(
+            comparison_html(std::slice::from_ref(compared)).expect("a report").contains("No change beyond 2")
+        );
     });
+}
+
+#[test]
+fn a_difference_has_its_sign_unless_it_is_zero() {
+    assert_eq!([1.256, -0.3, -0.001, 0.002].map(signed), ["+1.26", "-0.30", "0.00", "0.00"]);
 }

@@ -1,5 +1,5 @@
 use super::*;
-use lumencut_vessels::measure::section::flags::{AT_LIMIT, BRANCH, CALCIUM, NO_EDGE};
+use lumencut_vessels::measure::section::flags::{AT_LIMIT, BRANCH, CALCIUM, METAL, NO_EDGE};
 
 fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
     Stenosis {
@@ -58,6 +58,22 @@ fn doubts_stand_behind_the_percentage() {
         format!("{}. {}", of_stenosis(&doubtful), described.join(" "))
     );
     assert_eq!(of_doubts(&Doubts { flags: 0, is_branch_between: true }), described[1..]);
+}
+
+#[test]
+fn metal_at_a_place_is_told_in_the_first_line() {
+    let first_line = |flags: u32| {
+        let doubts = Doubts { flags, is_branch_between: false };
+        of_stenosis(&Stenosis { doubts, ..graded(Method::Nascet, vec![[20.0, 5.1]]) })
+    };
+    let metal = first_line(METAL | CALCIUM);
+    assert!(metal.contains("(NASCET; doubtful, as a place lies in metal): 2.08"), "{metal}");
+    let both = first_line(METAL | BRANCH);
+    assert!(
+        both.contains("(NASCET; doubtful, as a section does not count: branch, and a place lies in metal)"),
+        "{both}"
+    );
+    assert!(first_line(CALCIUM).contains("(NASCET): 2.08"));
 }
 
 #[test]

@@ -33,6 +33,22 @@ fn both_ends_are_told_with_the_place_to_cut() {
 }
 
 #[test]
+fn an_end_whose_lumen_is_much_darker_says_so_and_how_to_measure_it() {
+    let mut profile = measured_within([20.0, 60.0]);
+    for (n, at) in profile.arc_length.clone().into_iter().enumerate() {
+        profile.line_values[n] = if at < 20.0 { 120.0 } else { 300.0 };
+    }
+    let [part] = &not_measured(&profile)[..] else { panic!("one end") };
+    assert_eq!(
+        part.words,
+        "Not measured up to 20 mm: the lumen is much darker there, about 120 instead of 300. Cut the vessel there to measure both parts."
+    );
+    // A value of the surroundings is no darker lumen.
+    profile.line_values[..40].fill(55.0);
+    assert_eq!(not_measured(&profile)[0].words, "Not measured up to 20 mm: no wall was found there.");
+}
+
+#[test]
 fn short_ends_are_not_told() {
     assert_eq!(not_measured(&measured_within([5.0, 55.0])), []);
 }

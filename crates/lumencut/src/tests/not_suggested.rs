@@ -4,7 +4,7 @@ use crate::profile_marks::marks;
 use crate::profile_table::profile_csv;
 use crate::scan_details::ScanDetails;
 use crate::tube::tube;
-use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM, METAL, NO_EDGE, OUTSIDE};
+use lumencut_vessels::measure::section::flags::{CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE};
 
 #[test]
 fn where_places_are_suggested_or_marked_there_is_no_reason() {
@@ -23,7 +23,7 @@ fn where_nothing_is_safe_the_hindrances_are_told() {
     // The flag of the branch is missing, since all flags were overwritten.
     assert_eq!(
         reason,
-        "No narrowest place is suggested: no section is reliable (metal, calcium, unsure diameter). Mark it yourself."
+        "No narrowest place is suggested: each of the 121 sections that count has a doubt (metal, calcium, unsure diameter). Mark it yourself."
     );
     // A marked place then has no reference either.
     let [reason] = &not_suggested(&stent, Some(30.0), &[])[..] else { panic!("one reason") };
@@ -44,18 +44,36 @@ fn a_narrower_place_that_is_not_suggested_is_told_with_the_reason() {
     assert!(reasons[0].ends_with("(calcium). Check it."), "{reasons:?}");
     let found = vessel.passed_over().expect("a place").0.at;
     assert!((found - at).abs() <= 0.5, "{found}");
-    assert!(not_suggested(&vessel, Some(30.0), &[45.0]).is_empty(), "a marked place needs no suggestion");
+    // A mark on a wider place, such as a confirmed suggestion, does not silence it; a mark at the place itself does.
+    assert_eq!(not_suggested(&vessel, Some(suggested.at), &[45.0]), reasons[..1]);
+    assert_eq!(narrower(&vessel, Some(at)), None);
+    let marked = vessel.nearest_section(suggested.at);
+    vessel.area[marked] = 3.0;
+    assert_eq!(narrower(&vessel, Some(suggested.at)), None, "the marked place is narrower");
+}
+
+#[test]
+fn where_no_section_counts_the_reasons_are_those_of_all_sections() {
+    let mut vessel = tube();
+    vessel.flags.fill(NO_EDGE);
+    vessel.flags[..5].fill(NO_EDGE | METAL);
+    let [reason] = &not_suggested(&vessel, None, &[])[..] else { panic!("one reason") };
+    assert!(reason.contains("no section counts (no clear wall, metal)"), "{reason}");
+    // Sections that do not count give no reasons where others count.
+    vessel.flags[..5].fill(METAL);
+    let [reason] = &not_suggested(&vessel, None, &[])[..] else { panic!("one reason") };
+    assert!(reason.contains("each of the 5 sections that count has a doubt (metal)"), "{reason}");
 }
 
 #[test]
 fn of_many_reasons_those_of_the_most_sections_are_told() {
     let mut stent = tube();
     stent.flags.fill(METAL);
-    stent.flags[..60].fill(METAL | OUTSIDE);
-    stent.flags[..20].fill(METAL | OUTSIDE | BRANCH);
-    stent.flags[..5].fill(METAL | OUTSIDE | BRANCH | CALCIUM);
+    stent.flags[..60].fill(METAL | CALCIUM);
+    stent.uncertainty[..20].fill(20.0);
+    stent.flags[0] |= NEIGHBOR | IRREGULAR;
     let [reason] = &not_suggested(&stent, None, &[])[..] else { panic!("one reason") };
-    assert!(reason.contains("(metal, outside, branch)"), "{reason}");
+    assert!(reason.contains("(metal, calcium, unsure diameter)"), "{reason}");
 }
 
 #[test]

@@ -80,7 +80,7 @@ fn a_later_version_and_an_unknown_flag_are_refused_with_a_mend() {
         (later, "found version 2; expected version 1; measure the vessel again"),
         (
             unknown,
-            "found unknown flags (bits 0x100000); expected flags of this version (bits 0xfff); measure",
+            "found unknown flags (bits 0x100000); expected flags of this version (bits 0x1fff); measure",
         ),
     ] {
         let error = read(&odd.to_string()).expect_err("it is refused").to_string();
@@ -205,6 +205,7 @@ fn a_contour_of_other_rays_and_too_many_sections_are_refused() {
         &mut many.at_most,
         &mut many.uncertainty,
         &mut many.inscribed_radius,
+        &mut many.line_values,
     ] {
         numbers.resize(count, f64::NAN);
     }

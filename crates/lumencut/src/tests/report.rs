@@ -1,5 +1,5 @@
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::section::flags::BRANCH;
+use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM};
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 use lumencut_vessels::measure::wall::WallSource;
 
@@ -95,9 +95,23 @@ fn a_percentage_has_its_method_and_references_and_what_makes_it_doubtful() {
 }
 
 #[test]
+fn a_narrower_place_than_the_marked_one_is_told_with_the_finding() {
+    let mut profile = tube();
+    let far = profile.nearest_section(45.0);
+    for n in far - 1..=far + 1 {
+        (profile.area[n], profile.flags[n]) = (std::f64::consts::PI, CALCIUM);
+    }
+    for marked in [marked(Some(30.0), &[]), marked(Some(30.0), &[20.0])] {
+        let grade = marked.grade(&profile);
+        let text = html(&shown(), &[page_of(&profile, "LAD", &marked, grade.as_ref())]).expect("a report");
+        assert!(text.contains("<p class=\"doubt\">Narrower, but not suggested: 2.00 mm at 4"), "{text}");
+    }
+}
+
+#[test]
 fn a_place_that_is_not_graded_keeps_its_rows_and_says_why() {
     let text = html_of(&shown(), &marked(Some(30.0), &[]));
-    assert!(text.contains("<p class=\"finding\">No percentage: Mark a reference"));
+    assert!(text.contains("<p class=\"finding\">4.00 ± 0.10 mm at 30.0 mm. No percentage: mark a reference"));
     assert!(text.contains("marked place</td><td>30.0</td>") && !text.contains(" % of the diameter"));
 }
 

@@ -50,6 +50,7 @@ pub(crate) fn tube() -> Profile {
         fwhm_source: Source::Given,
         wall_source: WallSource::NotAsked,
         on_vessel: at.iter().map(|at| DVec3::Z * *at).collect(),
+        line_values: vec![300.0; count],
         without_wall: Vec::new(),
         arc_length: at,
     }

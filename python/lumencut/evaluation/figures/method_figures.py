@@ -21,6 +21,8 @@ def cost_of_a_knot(scenes: Scenes) -> Figure:
     found = {rule: scenes.surface(renderer, camera, settings_of(rule)) for rule in RULES}
     black = np.zeros((*scenes.size[::-1], 3), np.uint8)
     side = camera.pixel_spacing
+    literal = settings_of("paper", distance_rule="whole curve")
+    hidden = renderer.cut_surface(camera, literal, images=["depth"]).depth
     return Figure(
         "Figure 2",
         "A cost orders the surfaces that lie above each other along a ray; the smallest one is shown. The "
@@ -36,6 +38,12 @@ def cost_of_a_knot(scenes: Scenes) -> Figure:
                 "c",
                 "The cost of Equation 2 in place of the depth, lit; little cost is bright.",
                 {rule: drawing.relief(frame.cost, side) for rule, frame in found.items()},
+            ),
+            Panel(
+                "d",
+                "Depth with the distance to the whole curve, Equation 2 to the letter: most of the knot is "
+                "hidden. The paper's figure shows the distance to each part, as the others here do.",
+                {"": drawing.with_centerlines(drawing.grey(hidden), tree, camera)},
             ),
         ],
     )

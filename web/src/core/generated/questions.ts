@@ -81,6 +81,19 @@ export type Compared = {
   readonly method: StenosisMethod;
 };
 
+/** The lumen of a vessel in two scans, compared. */
+export type ComparedScans = {
+  /** Doubts, changes, the typical difference, and how the vessels were matched. */
+  readonly sentences: ReadonlyArray<string>;
+  /** Arc lengths on the earlier and on the later vessel (mm) that belong together; null beyond its ends. */
+  readonly places: ReadonlyArray<readonly [number, number | null]>;
+  /** The motion from the earlier scan to the later one. */
+  readonly motion: Motion;
+  /** Diameters and differences as SVG, and their axis of arc lengths on the earlier vessel (plot pixels). */
+  readonly chart: string;
+  readonly axis: Axis;
+};
+
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -199,6 +212,15 @@ export type Edit = {
   readonly id: number;
   readonly at: number;
 } | {
+  readonly "kind": "bend";
+  readonly id: number;
+  readonly at: number;
+  readonly to: Vector;
+} | {
+  readonly "kind": "smooth";
+  readonly id: number;
+  readonly sigma: number;
+} | {
   readonly "kind": "join";
   readonly id: number;
   readonly other: number;
@@ -283,7 +305,10 @@ export type FlagLook = {
 
 export type Grade = {
   readonly stenosis: Stenosis | null;
+  /** The diameter, if a place is marked, and why there is no percentage. */
   readonly not_graded: string | null;
+  /** A place that is narrower than the marked one, in one sentence. */
+  readonly narrower: string | null;
 };
 
 export type Histogram = {
@@ -322,6 +347,8 @@ export type LineContent = {
   readonly confidence: ReadonlyArray<number> | null;
   /** Whether each point lies on a bridged stretch without lumen, if known. */
   readonly bridged: ReadonlyArray<boolean> | null;
+  /** Whether the reader moved each point by hand; null if none was moved. */
+  readonly by_hand: ReadonlyArray<boolean> | null;
 };
 
 export type LineFacts = {
@@ -430,6 +457,13 @@ export type MeasuredVessel = {
   readonly marks: Marks;
 };
 
+/** A rigid motion (mm, LPS): a point times `rotation`, plus `shift`. */
+export type Motion = {
+  /** The rows of the matrix. */
+  readonly rotation: readonly [Vector, Vector, Vector];
+  readonly shift: Vector;
+};
+
 export type NamedLine = {
   readonly line: number;
   /** Name; may be empty. */
@@ -516,6 +550,8 @@ export type Plane = {
   readonly down: Vector;
   readonly size: Pair;
   readonly pixel_spacing: number;
+  /** Thickness (mm) and mode of a slab centred on the plane; without one, the picture shows the plane itself. */
+  readonly slab?: readonly [number, string] | null;
 };
 
 export type PointedAt = {
@@ -836,6 +872,8 @@ export type SavedView = {
   readonly cross_hair: Vector | null;
   /** The vessel that is shown straightened, and the place whose cross-section is shown. */
   readonly picked: SavedPlace | null;
+  /** The planes of the slices, if they were turned or are thick; exist since version 2. */
+  readonly slices?: Slices;
 };
 
 /** A scale bar of round length. */
@@ -846,6 +884,32 @@ export type ScaleBar = {
   readonly words: string;
   /** Length in pixels; may be fractional. */
   readonly pixels: number;
+};
+
+/** What the header of a scan states about patient and modality; empty where it states nothing. */
+export type ScanIdentity = {
+  /** PatientID without padding. */
+  readonly patient: string;
+  /** IssuerOfPatientID without padding. */
+  readonly issuer: string;
+  /** Modality. */
+  readonly modality: string;
+};
+
+/** A vessel measured in an earlier and a later scan. */
+export type ScansToCompare = {
+  /** The records of both profiles, as `profile_record` answers them. */
+  readonly records: readonly [string, string];
+  /** Places that belong together (arc lengths on both vessels, mm). */
+  readonly pairs: ReadonlyArray<Pair>;
+  readonly vessel: string;
+  /** What the scans are called. */
+  readonly scans: readonly [string, string];
+  readonly identities: readonly [ScanIdentity, ScanIdentity];
+  /** Whether scans of two patients are compared. */
+  readonly other_patient: boolean;
+  /** Pictures of the earlier and the later scan for the report (PNG in base64); may be empty. */
+  readonly pictures: ReadonlyArray<string>;
 };
 
 export type Sentence = {
@@ -880,6 +944,26 @@ export type SettingRow = {
 export type Side = {
   readonly direction: Vector;
   readonly up: Vector;
+};
+
+/** Unit vectors of a slice, to the right and down. */
+export type SliceAxes = {
+  /** To the right in the slice. */
+  readonly right: Vector;
+  /** Down in the slice. */
+  readonly down: Vector;
+};
+
+/** The planes of the slices; all go through the cross-hair. */
+export type Slices = {
+  /** The plane that is axial at first. */
+  readonly axial: SliceAxes;
+  /** The plane that is coronal at first. */
+  readonly coronal: SliceAxes;
+  /** The plane that is sagittal at first. */
+  readonly sagittal: SliceAxes;
+  /** Thickness (mm) and mode of a slab centred on each plane: `max`, `mean` or `min`. */
+  readonly slab: readonly [number, string] | null;
 };
 
 /** A place on a vessel (arc length, mm) and its diameter (mm). */
@@ -1221,6 +1305,23 @@ export type Questions = {
     };
     readonly answer: LineContent;
   };
+  /** The points of a line after a move by hand from an arc length (mm) to a place. Nothing is kept. */
+  readonly bent: {
+    readonly message: {
+      readonly line: number;
+      readonly at: number;
+      readonly to: Vector;
+    };
+    readonly answer: ReadonlyArray<Vector>;
+  };
+  /** The points of a line after smoothing by a Gaussian (standard deviation in mm). Nothing is kept. */
+  readonly smoothed: {
+    readonly message: {
+      readonly line: number;
+      readonly sigma: number;
+    };
+    readonly answer: ReadonlyArray<Vector>;
+  };
   /** Adds a line, such as a line of a saved session; returns the number that it gets. */
   readonly add_line: {
     readonly message: LineContent;
@@ -1405,6 +1506,30 @@ export type Questions = {
     };
     readonly answer: ReadonlyArray<Camera>;
   };
+  /** The motion from one scan to another, from their corners and from pairs of points that belong together. */
+  readonly motion_between: {
+    readonly message: {
+      readonly corners: readonly [ReadonlyArray<Vector>, ReadonlyArray<Vector>];
+      readonly pairs: ReadonlyArray<readonly [Vector, Vector]>;
+    };
+    readonly answer: Motion;
+  };
+  /** A vessel in two scans, compared, with charts of this size (plot pixels). */
+  readonly compare_scans: {
+    readonly message: {
+      readonly scans: ScansToCompare;
+      readonly size: Pair;
+    };
+    readonly answer: ComparedScans;
+  };
+  /** The comparison of a vessel in two scans as a file, as of `lumencut compare-scans`. */
+  readonly comparison_file: {
+    readonly message: {
+      readonly scans: ScansToCompare;
+      readonly kind: string;
+    };
+    readonly answer: string;
+  };
   /** The table of settings. */
   readonly settings_table: {
     readonly message: null;
@@ -1455,6 +1580,8 @@ export const TURNS = {
   path: { when: 'first', words: null },
   whole_vessel: { when: 'first', words: null },
   line: { when: 'first', words: null },
+  bent: { when: 'first', words: null },
+  smoothed: { when: 'first', words: null },
   add_line: { when: 'first', words: null },
   show: { when: 'first', words: null },
   write_lines: { when: 'first', words: null },
@@ -1480,6 +1607,9 @@ export const TURNS = {
   straightened_notes: { when: 'at once', words: null },
   kind_of_file: { when: 'at once', words: null },
   flight: { when: 'at once', words: null },
+  motion_between: { when: 'at once', words: null },
+  compare_scans: { when: 'at once', words: null },
+  comparison_file: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
   regions: { when: 'at once', words: null },

@@ -79,5 +79,10 @@ export async function studyOf(plan: Plan, files: readonly ExaminedFile[]): Promi
     header: await headOf(first.source),
     instances: [...new Set(instances.filter((uid) => typeof uid === 'string'))],
     studyCount: new Set(images.map(({ study }) => study)).size,
+    identity: {
+      patient: plan.patient.id,
+      issuer: plan.patient.issuer,
+      modality: plan.details.modality,
+    },
   };
 }

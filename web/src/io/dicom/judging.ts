@@ -17,6 +17,8 @@ export interface Plan {
   readonly notes: readonly string[];
   /** Acquisition parameters, in the form that the engine expects. */
   readonly scan: object;
+  readonly patient: { readonly id: string; readonly issuer: string };
+  readonly details: { readonly modality: string };
 }
 
 export interface PlannedSlice {

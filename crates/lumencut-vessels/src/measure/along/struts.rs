@@ -62,12 +62,17 @@ pub(crate) fn flag_struts(bench: &Bench, places: &[SectionPlane], sections: &mut
     }
     let found = has_struts(&bench.rays, places, sections);
     for ((section, place), _) in sections.iter_mut().zip(places).zip(found).filter(|(_, has)| *has) {
-        section.flags |= METAL;
-        if let Some(fit) = &mut section.fit {
-            let unsure = UNMODELLED_WIDTHS * bench.blur.width(place);
-            fit.parts.surroundings = fit.parts.surroundings.hypot(unsure);
-            fit.uncertainty = fit.parts.total();
-        }
+        lies_in_metal(bench, place, section);
+    }
+}
+
+/// Flags a section, and increases its uncertainty by that of sections whose struts are clear.
+pub(super) fn lies_in_metal(bench: &Bench, place: &SectionPlane, section: &mut Section) {
+    section.flags |= METAL;
+    if let Some(fit) = &mut section.fit {
+        let unsure = UNMODELLED_WIDTHS * bench.blur.width(place);
+        fit.parts.surroundings = fit.parts.surroundings.hypot(unsure);
+        fit.uncertainty = fit.parts.total();
     }
 }
 

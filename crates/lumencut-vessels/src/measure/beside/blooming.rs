@@ -3,15 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::is_bright;
-use crate::measure::section::flags::{CALCIUM, METAL};
 use crate::measure::section::rays::{RAYS, Ray};
-
-/// Maximum distance (mm) between two rings of one stent.
-const RINGS: f64 = 6.0;
-
-/// Maximum distance (mm) between two rings if all sections between them contain bright material. Blurred
-/// struts look like calcium, but calcium does not start and end with metal.
-const BRIGHT_BETWEEN: f64 = 40.0;
 
 /// Calcium hides at least this many rays in a row; the struts of a stent hide fewer.
 const WIDE: usize = RAYS / 8;
@@ -49,20 +41,6 @@ fn narrow_beside(inner: &mut [f64], measured: &[f64], hides: impl Fn(usize) -> b
 fn area(radii: &[f64]) -> f64 {
     let triangle = 0.5 * (TAU / RAYS as f64).sin();
     (0..RAYS).map(|n| triangle * radii[n] * radii[(n + 1) % RAYS]).sum()
-}
-
-/// Flags the sections between rings of a stent as metal instead of calcium.
-pub(crate) fn join_rings(at: &[f64], flags: &mut [u32]) {
-    let rings: Vec<usize> = (0..at.len()).filter(|n| flags[*n] & METAL != 0).collect();
-    for two in rings.windows(2) {
-        let away = at[two[1]] - at[two[0]];
-        let is_bright = flags[two[0] + 1..two[1]].iter().all(|flags| flags & CALCIUM != 0);
-        if away <= RINGS || is_bright && away <= BRIGHT_BETWEEN {
-            for flags in &mut flags[two[0] + 1..two[1]] {
-                *flags = *flags & !CALCIUM | METAL;
-            }
-        }
-    }
 }
 
 #[cfg(test)]

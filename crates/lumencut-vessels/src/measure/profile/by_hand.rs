@@ -8,7 +8,9 @@ use crate::measure::model::contour::{ellipse_within, inscribed, points};
 use crate::measure::model::ellipse::Ellipse;
 use crate::measure::profile::{Profile, half_axes_of};
 use crate::measure::section::SectionPlane;
-use crate::measure::section::flags::{BRANCH, BY_HAND, IRREGULAR, NO_EDGE, RECENTERED, RESTLESS_LINE};
+use crate::measure::section::flags::{
+    BRANCH, BY_HAND, IRREGULAR, LINE_BY_HAND, NO_EDGE, RECENTERED, RESTLESS_LINE,
+};
 use crate::measure::section::rays::{RAYS, direction};
 use crate::measure::uncertainty::Parts;
 
@@ -123,6 +125,17 @@ impl Profile {
         }
         profile.inscribed_radius = inscribed(&profile.arc_length, &profile.center, &profile.contour);
         profile
+    }
+
+    /// The profile of a line that the reader moved between these arc lengths (mm).
+    #[must_use]
+    pub fn with_line_by_hand(mut self, stretches: &[[f64; 2]]) -> Self {
+        for [from, to] in stretches {
+            for n in self.nearest_section(*from)..=self.nearest_section(*to) {
+                self.flags[n] |= LINE_BY_HAND;
+            }
+        }
+        self
     }
 
     fn draw(&mut self, outline: &Outline, side: f64) {

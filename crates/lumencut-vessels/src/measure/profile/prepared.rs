@@ -13,6 +13,7 @@ use crate::measure::along::calcified::settle;
 use crate::measure::along::contradicted::flag_contradicted;
 use crate::measure::along::dim_plaque::flag_dim_plaque;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
+use crate::measure::along::rings::flag_stents;
 use crate::measure::along::struts::flag_struts;
 use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
@@ -270,6 +271,7 @@ impl PreparedVessel {
         settle(&self.places, &mut sections, bench.fwhm);
         flag_contradicted(bench, &self.places, &mut sections);
         Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
+        flag_stents(bench, &self.places, &mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,
             Some(by_others) => self.wall_source.pooled(by_others),
@@ -287,7 +289,8 @@ impl PreparedVessel {
         let on_line = profile.on_line(&self.places, self.scale.value(1.0));
         let found = lumen_pairs(voxels, (&on_line, middle), (&bench.blur, profile.noise), request.stop)?;
         let profile = profile.with_lumen_pairs(found);
-        Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
+        let line_values = self.places.iter().map(|place| f64::from(voxels.at(place.origin))).collect();
+        Ok(Profile { line_values, without_wall: self.part.left_out(&self.places), ..profile })
     }
 
     fn wall_by_others(

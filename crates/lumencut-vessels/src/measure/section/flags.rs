@@ -25,6 +25,8 @@ pub const PLAQUE: u32 = 1 << 10;
 
 /// A reader drew the contour.
 pub const BY_HAND: u32 = 1 << 11;
+/// A reader moved the centerline.
+pub const LINE_BY_HAND: u32 = 1 << 12;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

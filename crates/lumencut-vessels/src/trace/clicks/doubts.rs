@@ -9,7 +9,7 @@ use crate::trace::lines::nearest_point;
 use crate::trace::lumen::level_change::level_change;
 use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::own_axis::runs_across;
-use crate::trace::lumen::wall_crossing::wall_crossings;
+use crate::trace::lumen::wall_crossing::{WallCrossing, wall_crossings};
 use crate::trace::lumen::wander::wandering;
 use crate::voxels::Voxels;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -20,6 +20,7 @@ const DETOUR: f64 = 2.0;
 /// A line does not run across its lumen if its ends are farther apart than this many radii.
 const LONG: f64 = 4.0;
 
+/// Places of one kind of doubt that lie at most this far apart (mm) are one part.
 const APART: f64 = 20.0;
 
 /// A doubt about a line.
@@ -79,20 +80,21 @@ impl Doubted<'_> {
         !is_long && runs_across(voxels, [*first, *last])
     }
 
-    fn crossed(&self, voxels: &Voxels, lengths: &[f64]) -> Option<Doubt> {
+    /// One doubt for each part with crossings, since nothing may be wrong between distant ones.
+    fn crossed(&self, voxels: &Voxels, lengths: &[f64]) -> Vec<Doubt> {
         let mut crossings = wall_crossings(voxels, self.line);
         crossings.retain(|crossing| self.bridged.get(crossing.at) != Some(&true));
-        let (first, last) = (crossings.first()?, crossings.last()?);
-        let [from, to] = [first, last].map(|crossing| lengths[crossing.at]);
-        let part =
-            if to > from { format!("from {from:.0} to {to:.0} mm") } else { format!("from {from:.0} mm on") };
-        let [beside, within] = first.levels;
-        let why =
-            format!("the line crosses a dark sheet ({within:.0} between {beside:.0}), a flap or a wall");
-        Some(Doubt {
-            words: format!("Doubtful {part}: {why}: perhaps another vessel or lumen."),
-            at: Some(from),
-        })
+        let tell = |part: &[WallCrossing]| {
+            let [from, to] = [part[0].at, part[part.len() - 1].at].map(|n| lengths[n]);
+            let place =
+                if to > from { format!("from {from:.0} to {to:.0} mm") } else { format!("at {from:.0} mm") };
+            let [beside, within] = part[0].levels;
+            let why =
+                format!("the line crosses a dark sheet ({within:.0} between {beside:.0}), a flap or a wall");
+            let words = format!("Doubtful {place}: {why}: perhaps another vessel or lumen.");
+            Doubt { words, at: Some(from) }
+        };
+        crossings.chunk_by(|a, b| lengths[b.at] - lengths[a.at] <= APART).map(tell).collect()
     }
 
     fn detours(&self, lengths: &[f64]) -> Vec<Doubt> {

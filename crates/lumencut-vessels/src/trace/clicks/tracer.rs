@@ -88,7 +88,7 @@ impl Tracer {
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
         let surroundings = self.surroundings_of(voxels, &[click]);
         let taken = surroundings.snapped(voxels, &[click]);
-        surroundings.check_alone(voxels, taken[0])
+        surroundings.check_first(voxels, taken[0])
     }
 
     fn surroundings_of(&self, voxels: &Voxels, clicks: &[DVec3]) -> Surroundings {

@@ -1,5 +1,7 @@
 //! Finds the complete vessel at a click: back to the nearest existing vessel, and forward to the vessel's end.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 
 use crate::trace::find::found::{NoVessel, Trees};
@@ -14,7 +16,7 @@ const SAME_POINT_MM: f64 = 1e-6;
 /// The vessel that contains a click (mm, LPS): the nearest one in radii, sure ones first. It starts on an
 /// existing vessel (`beside`) if its ancestors lead to one, otherwise where it leaves its parent. It ends at
 /// its own end, or where it enters an existing vessel. `voxel` is the voxel side (mm). Errors: [`NoVessel`]
-/// for a click in no vessel, or in an existing one.
+/// for a click in no vessel, or in an existing one, or if nothing longer than wide would be added.
 pub fn one_vessel(
     trees: &Trees,
     click: DVec3,
@@ -33,16 +35,16 @@ pub fn one_vessel(
     let first = (0..at).rev().find(met).or_else(|| meets(beside, whole.points[at]).then_some(at));
     let last = (at + 1..whole.points.len()).find(met);
     let range = first.unwrap_or(before)..=last.unwrap_or(whole.points.len() - 1);
+    let is_joined = first.is_some() || last.is_some();
+    if is_joined && length_outside(&whole, range.clone(), met) < 2.0 * whole.radius[at] {
+        return Err(NoVessel::Already);
+    }
     let mut line = Centerline {
         points: whole.points[range.clone()].to_vec(),
         radius: whole.radius[range.clone()].to_vec(),
         confidence: whole.confidence[range].to_vec(),
     };
     let end = line.points.len() - 1;
-    // Everything that would be added lies in an existing vessel.
-    if end == 0 {
-        return Err(NoVessel::Already);
-    }
     for (end, is_met) in [(0, first.is_some()), (end, last.is_some())] {
         if is_met {
             line.points[end] = nearest_of(beside, line.points[end]);
@@ -91,6 +93,12 @@ fn meets(beside: &[Centerline], place: DVec3) -> bool {
         let is_at = |end: usize| near.distance(points[end]) <= vessel.radius[end].max(SAME_POINT_MM);
         (near.distance(place) <= SAME_POINT_MM || holds(vessel, place)) && !is_at(0) && !is_at(last)
     })
+}
+
+/// Length of a part of a line that does not lie in existing vessels (mm). If it is shorter than wide, it is the rim of one.
+fn length_outside(line: &Centerline, part: RangeInclusive<usize>, met: impl Fn(&usize) -> bool) -> f64 {
+    let steps = part.clone().zip(part.skip(1)).filter(|(a, b)| !(met(a) && met(b)));
+    steps.map(|(a, b)| line.points[a].distance(line.points[b])).sum()
 }
 
 fn nearest_of(beside: &[Centerline], place: DVec3) -> DVec3 {

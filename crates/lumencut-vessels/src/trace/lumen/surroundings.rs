@@ -38,6 +38,9 @@ const SNAP: f64 = 2.0;
 /// Minimum fraction of the surroundings that must be darker than the lumen.
 const DARKER: f64 = 0.75;
 
+/// Surroundings contain something far brighter than tissue if it exceeds the tissue by this multiple of the noise.
+const CLEAR_NOISES: f64 = 8.0;
+
 /// What a click hit that is far brighter, or no brighter, than the lumen. Bone and slow blood are dark in MR.
 const CT_MISTAKES: [&str; 2] = ["bone, metal or calcium", "tissue, or blood without contrast medium"];
 const OTHER_MISTAKES: [&str; 2] =
@@ -121,6 +124,26 @@ impl Surroundings {
     pub(crate) fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
         let value = value_at(voxels, click);
         self.check(voxels, click, value, self.mistaken(value))
+    }
+
+    /// As [`Surroundings::check_alone`], and rejects a first click in values of no known unit that is no brighter than most of
+    /// its surroundings, if these contain something far brighter.
+    pub(crate) fn check_first(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
+        self.check_alone(voxels, click)?;
+        let value = value_at(voxels, click);
+        let Hit { lumen, noise, .. } = self.hit(voxels, click, value);
+        let least = self.least_bright();
+        let is_clear = self.bright - self.tissue > CLEAR_NOISES * noise;
+        if self.is_hounsfield || !is_clear || lumen > self.most || lumen >= least {
+            return Ok(());
+        }
+        let expected = format!("lumen, brighter than {least:.0}");
+        self.check(voxels, click, value, Some((OTHER_MISTAKES[1], expected)))
+    }
+
+    /// The least value that surely looks like lumen, if the unit is unknown.
+    fn least_bright(&self) -> f64 {
+        self.tissue + 0.4 * (self.bright - self.tissue)
     }
 
     /// Moves rejected clicks to adjacent lumen, which the user probably meant. If there is none, the click stays.
@@ -216,11 +239,8 @@ impl Surroundings {
 
     /// The nearest position within 10 mm that is surrounded by lumen values.
     fn nearest_lumen(&self, voxels: &Voxels, click: DVec3) -> Option<DVec3> {
-        let (least, most) = if self.is_hounsfield {
-            (SOFT_TISSUE * 1.5, BONE)
-        } else {
-            (self.tissue + 0.4 * (self.bright - self.tissue), f64::MAX)
-        };
+        let (least, most) =
+            if self.is_hounsfield { (SOFT_TISSUE * 1.5, BONE) } else { (self.least_bright(), f64::MAX) };
         let is_bright = |value: f32| (least..most).contains(&f64::from(value));
         let mut near = voxels.ball(click, 10.0);
         near.retain(|(_, value)| is_bright(*value));

@@ -19,6 +19,7 @@ fn straight(from: f64, count: usize) -> Line {
         radius: Some((0..count).map(|n| 1.0 + along(n) / 10.0).collect()),
         confidence: Some(vec![0.5; count]),
         bridged: Some(vec![false; count]),
+        by_hand: None,
     }
 }
 
@@ -94,7 +95,7 @@ fn a_path_leaves_a_line_and_enters_it_where_another_one_begins() {
     // Branches start at the trunk's points 5 and 15, since a branch starts at a point of its parent.
     let branch = |x: usize, side: f64| {
         let points = (0..4).map(|n| trunk.points[x] + f64::from(n) * side * DVec3::Y).collect();
-        Line { points, radius: Some(vec![0.5; 4]), confidence: Some(vec![1.0; 4]), bridged: None }
+        Line { points, radius: Some(vec![0.5; 4]), confidence: Some(vec![1.0; 4]), ..Line::default() }
     };
     let [left, right] = [branch(5, 1.0), branch(15, -1.0)];
     let words = ["a", "b", "c"].map(str::to_owned);

@@ -127,6 +127,8 @@ fn masks_that_are_none_are_refused() {
     let own = header((size, affine), "uint8");
     let shifted = DAffine3::from_translation(DVec3::X) * affine;
     let empty = vec![0u8; count];
+    study.check_mask(&own).expect("its own grid");
+    study.check_mask(&header((size, shifted), "uint8")).expect_err("the grid alone shows that it is none");
     let failure = traced(&mut study, &header((size, shifted), "uint8"), &empty).expect_err("elsewhere");
     assert!(failure.found.contains("corners lie up to 1 mm"), "{}", failure.found);
     let larger = [size[0] + 1, size[1], size[2]];

@@ -13,6 +13,7 @@ use lumencut_vessels::measure::wall::WallRequest;
 use serde_json::{Value as Json, json};
 
 use super::*;
+use crate::measure_words::of_diameter;
 use crate::study::lines::ListedLine;
 use crate::study::measure_messages::{
     GradeMessage, MarksMessage, ProfileMessage, SectionMessage, StretchMessage,
@@ -115,7 +116,7 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     let mut study = tube();
     let line = line_of(&study, 0);
     let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
-    let grade = |text| as_json(GradeMessage::from(marks(text).marked().expect("marks").grade(profile)));
+    let grade = |text| as_json(GradeMessage::of(&marks(text).marked().expect("marks"), profile));
     let graded = |text| Some(grade(text)["stenosis"].take()).filter(|stenosis| !stenosis.is_null());
     let whole =
         graded(json!({"at": 18.0, "references": [5.0, 31.0], "group": "carotid"})).expect("a stenosis");
@@ -137,34 +138,33 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     assert_eq!(whole["doubts"], json!([]));
 }
 
+const NO_REFERENCE: &str = "mark a reference where the vessel is normal.";
+
 #[test]
-fn a_place_that_is_not_graded_has_the_reason() {
+fn a_place_that_is_not_graded_has_its_diameter_and_the_reason() {
     let mut study = tube();
     let line = line_of(&study, 0);
     let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
-    let grade = |text| as_json(GradeMessage::from(marks(text).marked().expect("marks").grade(profile)));
+    let grade = |text| as_json(GradeMessage::of(&marks(text).marked().expect("marks"), profile));
+    let known = of_diameter(profile.diameter_at(18.0).expect("measured"), 18.0) + ". ";
     for (given, reason) in [
-        (json!({"references": [5.0]}), "Mark the place of the stenosis."),
-        (json!({"at": 18.0}), "Mark a reference: where the vessel is normal."),
-        (
-            json!({"at": 18.0, "method": "area", "original": 8.0}),
-            "Mark a reference: where the vessel is normal.",
-        ),
-        (
-            json!({"at": 18.0, "references": [5.0], "method": "ecst"}),
-            "ECST needs the assumed original diameter at that place.",
-        ),
+        (json!({"at": 18.0}), NO_REFERENCE),
+        (json!({"at": 18.0, "method": "area", "original": 8.0}), NO_REFERENCE),
+        (json!({"at": 18.0, "method": "ecst"}), "ECST needs the assumed original diameter at that place."),
         (
             json!({"at": 18.0, "references": [99.0]}),
             "reference of the stenosis: found 99 mm; expected an arc length from 0 to 35.000 mm",
         ),
+        (json!({"references": [5.0]}), "mark the place of the stenosis."),
         (json!({"at": 99.0}), "place on the vessel: found 99 mm; expected an arc length from 0 to 35.000 mm"),
     ] {
-        assert_eq!(grade(given), json!({"stenosis": null, "not_graded": reason}));
+        let first = if given["at"] == 18.0 { known.as_str() } else { "" };
+        let words = format!("{first}No percentage: {reason}");
+        assert_eq!(grade(given), json!({"stenosis": null, "not_graded": words, "narrower": null}));
     }
     // If nothing is marked, nothing is missing.
     for given in [json!({}), json!({"method": "ecst", "original": 8.0, "group": "carotid"})] {
-        assert_eq!(grade(given), json!({"stenosis": null, "not_graded": null}));
+        assert_eq!(grade(given), json!({"stenosis": null, "not_graded": null, "narrower": null}));
     }
     assert_eq!(marks(json!({"method": "who"})).marked().expect_err("no method").kind, "settings");
     assert_eq!(marks(json!({"group": "aorta"})).marked().expect_err("no territory").kind, "settings");
@@ -175,7 +175,7 @@ fn what_another_method_needs_is_left_aside() {
     let mut study = tube();
     let line = line_of(&study, 0);
     let profile = study.profile(line, Some(FWHM), &go_on).expect("a profile");
-    let grade = |text| as_json(GradeMessage::from(marks(text).marked().expect("marks").grade(profile)));
+    let grade = |text| as_json(GradeMessage::of(&marks(text).marked().expect("marks"), profile));
     for method in ["nascet", "area", "ecst"] {
         let all =
             json!({"at": 18.0, "references": [31.0], "original": 8.0, "comparison": 5.0, "method": method});
@@ -374,7 +374,7 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     assert!(lines[0].starts_with("vessel,name,arc_length_mm,"));
     let scan = "series_number,series_description,phase,slice_thickness_mm,kernel";
     assert!(lines[0].ends_with(&format!(",wall_source,{scan},stenosis,doubts,not_graded")));
-    assert!(lines[1..].iter().all(|line| line.ends_with(",,,Mark a reference: where the vessel is normal.")));
+    assert!(lines[1..].iter().all(|line| line.ends_with(",,,mark a reference where the vessel is normal.")));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
     // With several vessels, the settings contain no place.
     let all: Json =

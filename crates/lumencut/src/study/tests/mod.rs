@@ -192,6 +192,7 @@ fn a_slice_shows_the_voxels_of_its_plane() {
         down: [0.0, 1.0, 0.0],
         size: [3, 3],
         pixel_spacing: 0.2,
+        slab: None,
     };
     let value = study.at(point.to_array()).value.expect("inside");
     let picture = study.slice(&plane, [f64::from(value), 200.0]).expect("a slice");

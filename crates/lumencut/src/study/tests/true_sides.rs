@@ -90,6 +90,7 @@ fn letters_of_sections_and_slices_are_the_true_sides() {
         down,
         size: [65, 65],
         pixel_spacing: 0.25,
+        slab: None,
     };
     let slices = [
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -126,5 +127,46 @@ fn a_click_in_the_straightened_vessel_tells_the_true_place() {
                 assert!((back[0] - pixel[0]).abs() < 1e-6 && (back[1] - pixel[1]).abs() < 1e-6);
             }
         }
+    }
+}
+
+/// Volumes are ramps, so the mean of a slab is the value of its middle, and its ends differ by half the thickness times
+/// the normal's part along the ramp.
+#[test]
+fn a_slab_of_an_oblique_slice_shows_its_mean_and_its_ends() {
+    let [right, down] = [DVec3::new(0.8, 0.6, 0.0), DVec3::new(-0.36, 0.48, -0.8)];
+    let normal = right.cross(down);
+    for axis in 0..3 {
+        let study = ramp(axis, DVec3::Z);
+        let shown = |slab: Option<(f64, &str)>| {
+            let slab = slab.map(|(thickness, mode)| (thickness, mode.to_owned()));
+            let [right, down] = [right, down].map(|vector| vector.to_array());
+            let plane =
+                Plane { center: [2.0, -1.0, 3.0], right, down, size: [33, 33], pixel_spacing: 0.5, slab };
+            study.slice(&plane, WINDOW).expect("a slice").bytes
+        };
+        let (thin, half) = (shown(None), 5.0 * normal[axis].abs() / WINDOW[1] * 255.0);
+        for (mode, away) in [("mean", 0.0), ("max", half), ("min", -half)] {
+            for (thin, thick) in thin.chunks_exact(4).zip(shown(Some((10.0, mode))).chunks_exact(4)) {
+                let error = f64::from(thick[0]) - f64::from(thin[0]) - away;
+                assert!(error.abs() <= 1.5, "{mode} along axis {axis}: {error} steps of the window");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_slab_that_cannot_be_is_rejected() {
+    let study = ramp(0, DVec3::Z);
+    let with = |thickness: f64, mode: &str| Plane {
+        center: [0.0; 3],
+        right: [1.0, 0.0, 0.0],
+        down: [0.0, 1.0, 0.0],
+        size: [3, 3],
+        pixel_spacing: 1.0,
+        slab: Some((thickness, mode.to_owned())),
+    };
+    for (thickness, mode) in [(-1.0, "max"), (f64::NAN, "mean"), (1e9, "min"), (5.0, "median")] {
+        assert_eq!(study.slice(&with(thickness, mode), WINDOW).expect_err("no slab").kind, "settings");
     }
 }

@@ -1,5 +1,4 @@
 use super::*;
-use crate::measure::section::flags::NEIGHBOR;
 
 fn free(edge: f64) -> Ray {
     Ray {
@@ -42,26 +41,4 @@ fn the_measured_wall_lies_between_the_bounds_wherever_it_is() {
         let [low, high] = bounds(&[bright([3.0, 5.0]); RAYS], |_| wall, 1.0);
         assert!((low * wall - wall.min(3.0)).abs() < 1e-9 && (high * wall - wall.max(5.0)).abs() < 1e-9);
     }
-}
-
-#[test]
-fn the_rings_of_a_stent_are_one_stretch_of_metal() {
-    let at: Vec<f64> = (0..12).map(f64::from).collect();
-    let mut flags = [METAL, 0, CALCIUM | NEIGHBOR, METAL, CALCIUM, 0, 0, 0, 0, 0, METAL, CALCIUM];
-    join_rings(&at, &mut flags);
-    assert_eq!(flags, [METAL, METAL, METAL | NEIGHBOR, METAL, CALCIUM, 0, 0, 0, 0, 0, METAL, CALCIUM]);
-}
-
-#[test]
-fn between_metal_what_is_bright_all_the_way_is_metal() {
-    let at: Vec<f64> = (0..12).map(|n| 3.0 * f64::from(n)).collect();
-    let mut flags = [CALCIUM; 12];
-    [flags[2], flags[9]] = [METAL; 2];
-    let mut dark_between = flags;
-    join_rings(&at, &mut flags);
-    assert!(flags[2..=9].iter().all(|flags| *flags == METAL));
-    assert!(flags[..2].iter().chain(&flags[10..]).all(|flags| *flags == CALCIUM));
-    dark_between[5] = 0;
-    join_rings(&at, &mut dark_between);
-    assert_eq!(dark_between[4..7], [CALCIUM, 0, CALCIUM]);
 }

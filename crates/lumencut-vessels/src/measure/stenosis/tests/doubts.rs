@@ -20,6 +20,13 @@ fn the_flags_are_those_of_all_places_that_are_compared() {
 }
 
 #[test]
+fn a_reference_has_the_flags_of_all_sections_of_its_median() {
+    let made = flagged(&[(11.5, METAL), (8.0, CALCIUM), (9.0, NO_EDGE)]);
+    assert_eq!(made.doubts(25.0, Method::Nascet, &[10.0]).flags, METAL, "only sections that count are used");
+    assert_eq!(made.doubts(10.0, Method::Nascet, &[25.0]).flags, 0, "the narrowest place is one section");
+}
+
+#[test]
 fn a_branch_counts_between_the_place_and_a_reference_alone() {
     let between =
         |at: f64| flagged(&[(at, BRANCH)]).doubts(15.0, Method::Nascet, &[10.0, 20.0]).is_branch_between;

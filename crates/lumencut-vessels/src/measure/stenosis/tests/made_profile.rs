@@ -50,6 +50,7 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         fwhm_source: Source::Given,
         wall_source: WallSource::NotAsked,
         on_vessel: vec![DVec3::ZERO; count],
+        line_values: vec![300.0; count],
         without_wall: Vec::new(),
     }
 }
