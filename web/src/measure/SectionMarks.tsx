@@ -100,7 +100,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
               key={color}
               d={`M${pixels(points).join('L')}Z`}
               stroke={color}
-              stroke-dasharray={dashes.join(' ')}
+              stroke-dasharray={dashes.length > 0 ? dashes.join(' ') : undefined}
             />
           ))}
           {!pulled && section.longest && (
