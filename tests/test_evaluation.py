@@ -119,9 +119,13 @@ def test_images_that_a_method_gives_become_numbers(monkeypatch):
 
 
 def test_lines_of_the_rule_leap_are_at_leaps_and_nowhere_else():
-    row, paper = evaluate(None, crossing_tubes(), ("csr", "csr-paper"), **SMALL).table
-    assert row["leaps"] > 50
+    everywhere = Settings(silhouette_reach=None)
+    row, paper = evaluate(None, crossing_tubes(), ("csr", "csr-paper"), settings=everywhere, **SMALL).table
+    (drawn,) = evaluate(None, crossing_tubes(), ("csr",), **SMALL).table
+    assert row["leaps"] == drawn["leaps"] > 50
     assert row["leaps_with_line_percent"] > 95
+    # With its reach, the default leaves out lines far from vessels.
+    assert row["leaps_with_line_percent"] > drawn["leaps_with_line_percent"] > 80
     assert paper["leaps"] > 50
     assert row["leaps_with_line_percent"] >= paper["leaps_with_line_percent"]
     assert row["lines_elsewhere_mm_per_mm2"] < 0.001

@@ -42,7 +42,7 @@ const REPEATS: f64 = 0.75;
 const UNEVEN: f64 = 1.7;
 
 /// The same for the mean of all directions, in variances of its noise, and minimum share of its variance that repeats.
-const RING_REPEATS: (f64, f64) = (2.1, 0.5);
+const RING_REPEATS: (f64, f64) = (4.5, 0.5);
 
 /// Length (voxel sides) over which noise at the wall is shared; more values around it than this do not lower the noise of
 /// their mean, as voxels themselves repeat along a wide vessel.
