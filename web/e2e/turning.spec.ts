@@ -228,6 +228,13 @@ test('the help lists every row of the table of bindings', async () => {
   await expect(begin).toBeFocused();
   await viewer.press('?');
   await expect(help).toBeVisible();
+  // Closed and opened before the page draws itself again.
+  await viewer.page.evaluate(() => {
+    document.querySelector('dialog.help')?.dispatchEvent(new Event('cancel'));
+    document.querySelector<HTMLDialogElement>('dialog.help')?.close();
+    document.querySelector<HTMLButtonElement>('button[aria-label="Keys and mouse"]')?.click();
+  });
+  await expect(help).toBeVisible();
   await viewer.press('?');
   await expect(help).toBeHidden();
 });

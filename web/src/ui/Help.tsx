@@ -14,13 +14,15 @@ const PARTS: readonly (readonly [Where, string])[] = [
 export function Help() {
   const dialog = useRef<HTMLDialogElement>(null);
   const isOpen = isHelpOpen.value;
+  // After every render: a help that was closed and opened between two of them is closed on the screen only.
   useEffect(() => {
-    if (isOpen) {
-      dialog.current?.showModal();
-    } else {
-      dialog.current?.close();
+    const shown = dialog.current;
+    if (isOpen && !shown?.open) {
+      shown?.showModal();
+    } else if (!isOpen) {
+      shown?.close();
     }
-  }, [isOpen]);
+  });
   return (
     <dialog
       ref={dialog}
