@@ -123,7 +123,7 @@ impl Search<'_, '_> {
             let rim = Rim { map: &map, basins: &basins, lumens, dark, blur, noise };
             Lumen::of(corners, &rim.edges(corners)).ok_or(Flap::Open)
         };
-        let pair = self.judged([lumen([own, other], &first)?, lumen([other, own], &second)?], width)?;
+        let pair = self.judged(&[lumen([own, other], &first)?, lumen([other, own], &second)?], width)?;
         let is_hidden = is_metal(&map, &basins, [own, other], self.levels.at(1.0 + CAPPED));
         if is_hidden { Err(Flap::Metal) } else { Ok(pair) }
     }
@@ -191,7 +191,7 @@ impl Search<'_, '_> {
         }
     }
 
-    fn judged(&self, lumens: [Lumen; 2], width: f64) -> Result<LumenPair, Flap> {
+    fn judged(&self, lumens: &[Lumen; 2], width: f64) -> Result<LumenPair, Flap> {
         let areas = lumens.each_ref().map(|one| one.area());
         let diameters = areas.map(|area| 2.0 * (area / PI).sqrt());
         let flaps = lumens.each_ref().map(|one| one.flap());
@@ -270,8 +270,8 @@ fn behind(map: &PlaneMap, basins: &Basins, own: u32) -> Option<u32> {
     let met = |corner: &Corner| {
         let steps = 1..=(THICKEST_MM / map.step) as usize;
         let places = steps.map(|n| corner.at + corner.out * (n as f64 * map.step));
-        let found = places.filter_map(|place| map.nearest(place)).map(|n| basins.of[n]);
-        found.filter(|basin| *basin != NONE && *basin != own).next()
+        let mut found = places.filter_map(|place| map.nearest(place)).map(|n| basins.of[n]);
+        found.find(|basin| *basin != NONE && *basin != own)
     };
     let all: Vec<u32> = outline(map, basins, own).iter().filter_map(met).collect();
     let count = |basin: u32| all.iter().filter(|other| **other == basin).count();

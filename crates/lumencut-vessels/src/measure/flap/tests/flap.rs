@@ -94,7 +94,7 @@ fn lumens_seen_over_less_than_10_mm_are_left_out() {
         contours: Default::default(),
     };
     let mut found: Vec<LumenPair> = (0..60)
-        .map(|n| if n < 12 || n >= 30 { pair(200.0) } else { LumenPair::none(Flap::Absent) })
+        .map(|n| if !(12..30).contains(&n) { pair(200.0) } else { LumenPair::none(Flap::Absent) })
         .collect();
     found[40] = pair(400.0);
     leave_out_uneven(&at, &mut found);
