@@ -84,9 +84,7 @@ def test_every_setting_survives(tmp_path, name):
         Settings(window="mra", context_window="full"),
         Settings(window="cta"),
         # Only mida has a gamma, and chosen vessels need `lumen_first`.
-        Settings(
-            **{name: other(name) for name in _lumencut.SETTINGS if name not in LEFT_AS_IT_IS}
-        ),
+        Settings(**{name: other(name) for name in _lumencut.SETTINGS if name not in LEFT_AS_IT_IS}),
     ],
     ids=["default", "paper", "no-context", "named-transfer", "named-windows", "fixed-window", "all"],
 )
