@@ -1,5 +1,5 @@
 /** Help on mouse, touch and keys, generated from the table of bindings. */
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { BINDINGS, inputName, type Where } from '../input/bindings';
 import { closeHelp, isHelpOpen } from '../state/store';
 
@@ -14,8 +14,8 @@ const PARTS: readonly (readonly [Where, string])[] = [
 export function Help() {
   const dialog = useRef<HTMLDialogElement>(null);
   const isOpen = isHelpOpen.value;
-  // After every render: a help that was closed and opened between two of them is closed on the screen only.
-  useEffect(() => {
+  // At once after every render: the report of an earlier close must find a help that was opened again open.
+  useLayoutEffect(() => {
     const shown = dialog.current;
     if (isOpen && !shown?.open) {
       shown?.showModal();
