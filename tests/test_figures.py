@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from lumencut import Camera, FileError, SettingsError, Vessel, VesselTree
+from lumencut import Camera, FileError, SettingsError, Vessel, VesselTree, demo
 from lumencut.cli import main
 from lumencut.evaluation.figures import FIGURES, drawing, make_figures
 from lumencut.evaluation.figures.figure import Figure, Panel
@@ -98,6 +98,17 @@ def test_the_command(tmp_path):
     refused = CliRunner().invoke(main, ["figures", "--only", "99", "-o", str(tmp_path / "new")])
     assert refused.exit_code == 1
     assert "99" in refused.output
+
+
+def test_without_the_ct_a_phantom_is_shown_and_named(tmp_path, monkeypatch):
+    def missing(_):
+        raise demo.UnreachableError("CT of the demo", "no network", "the package index")
+
+    monkeypatch.setattr(demo, "stent_scene", missing)
+    make_figures(tmp_path, ["1"], quick=True, device="cpu")
+    assert "a phantom, as the CT of the demo was not available" in (tmp_path / "index.html").read_text(
+        "utf-8"
+    )
 
 
 def test_a_page_shows_text_as_text():

@@ -147,7 +147,7 @@ MISSING = {
     "The viewer does not connect to a PACS itself": the_page_asks_its_own_server_alone,
     "Lumencut writes values as DICOM for the cut": values_are_no_option_of_reformations,
     "segmentation of organs": lambda _: no_name_is_about(r"organ|segment(?!s$)"),
-    "registration of two scans": lambda _: no_name_is_about(r"regist|align"),
+    "registration of images": lambda _: no_name_is_about(r"regist|align"),
     "flow, pressure or FFR": lambda _: no_name_is_about(r"(?<!over)flow|pressure|ffr"),
     "surface meshes of vessels": no_meshes_are_written,
     "plaque scoring or typing": plaque_has_no_score,

@@ -71,17 +71,13 @@ def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[R
 
 
 def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, bool]:
-    """Return the volume and the vessels of the demo, and whether they come from the CT, not a phantom."""
-    from lumencut.demo import UnreachableError, stent_scene
+    """Return the volume and the vessels of the demo, and whether they come from the CT; warn of a phantom."""
+    from lumencut import demo
 
-    try:
-        return *stent_scene(cache), True
-    except UnreachableError as error:
-        from lumencut.phantom import aorta
-
+    volume, tree, error = demo.demo_scene(cache)
+    if error is not None:
         warn(f"the CT of the demo cannot be downloaded, a phantom is shown instead ({error})")
-        phantom = aorta(scale=0.5)
-        return phantom.volume, phantom.tree, False
+    return volume, tree, error is None
 
 
 def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:

@@ -80,6 +80,17 @@ def stent_scene(cache: Path | None = None) -> tuple[Volume, VesselTree]:
     return Volume(voxels, states_spacing=False, states_orientation=True), tree
 
 
+def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, UnreachableError | None]:
+    """Return :func:`stent_scene`; if it is unavailable, a phantom of an aorta and the error."""
+    try:
+        return *stent_scene(cache), None
+    except UnreachableError as error:
+        from lumencut.phantom import aorta
+
+        phantom = aorta(scale=0.5)
+        return phantom.volume, phantom.tree, error
+
+
 def _cached(cache: Path) -> tuple[str, bytes]:
     """Return path and content of the cached volume, after downloading it if missing."""
     kept = cache / "stent.npz"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from lumencut import phantom
-from lumencut.demo import UnreachableError, stent_scene
+from lumencut.demo import demo_scene
 from lumencut.pictures.renderer import Renderer
 from lumencut.scene.camera import Camera
 from lumencut.scene.settings import Settings
@@ -57,19 +57,19 @@ class Scenes:
         return (side // 2, side * 5 // 4)
 
     @functools.cached_property
+    def _demo(self) -> tuple[Renderer, bool]:
+        volume, tree, error = demo_scene()
+        return Renderer(volume, tree, self.device), error is None
+
+    @property
     def aorta(self) -> Renderer:
-        """The CT of the demo: a bifurcation of the aorta; a phantom where it cannot be downloaded."""
-        try:
-            volume, tree = stent_scene()
-        except UnreachableError:
-            made = phantom.aorta(scale=0.5)
-            volume, tree = made.volume, made.tree
-        return Renderer(volume, tree, self.device)
+        """The CT of the demo: a bifurcation of the aorta; a phantom if it is unavailable."""
+        return self._demo[0]
 
     @property
     def has_ct(self) -> bool:
-        """Whether :attr:`aorta` is the CT of the demo; only a phantom states the spacing of its voxels."""
-        return self.aorta.volume is not None and not self.aorta.volume.states_spacing
+        """Whether :attr:`aorta` is the CT of the demo."""
+        return self._demo[1]
 
     @functools.cached_property
     def legs(self) -> Renderer:
