@@ -12,7 +12,7 @@ import { leave } from '../study/unsaved';
 import { measuredHere, placeHere } from './measured';
 import { followOperation } from './operation';
 
-/** What the companion tells the main page. `turn` is the number of the last view that it took. */
+/** What the companion sends to the main page. `turn` is the number of the last view that it took. */
 export interface Listener {
   seen(seen: Seen, turn: number): void;
   scan(scan: OtherScan | null): void;
@@ -51,7 +51,7 @@ export class Companion {
     return pngOf(await composed('labels'));
   }
 
-  /** Tells `left` after the user has agreed to lose unsaved work. */
+  /** Calls `left` after the user has agreed to lose unsaved work. */
   leave(): Promise<void> {
     return leave(async () => this.listener?.left());
   }

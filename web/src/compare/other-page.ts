@@ -46,7 +46,7 @@ export async function connect(to: Window): Promise<void> {
   page = made;
   ends = [
     followOperation(),
-    followSeen(tell),
+    followSeen(send),
     // A new motion between the scans, a new link or a resized view brings the other view in line.
     effect(() => {
       const isLinked = motion.value && links.value.length > 0 && viewSizes.value !== '';
@@ -88,7 +88,7 @@ function place(corners: readonly Vector[], given: typeof pairs.value): void {
   });
 }
 
-function tell(seen: Seen): void {
+function send(seen: Seen): void {
   const there = untracked(() => across(seen, false));
   if (otherScan.peek() && Object.keys(there).length > 0) {
     void page?.show(there, turn);
@@ -98,7 +98,7 @@ function tell(seen: Seen): void {
 function impose(): void {
   turn += 1;
   setOperated(true);
-  tell(seenNow());
+  send(seenNow());
 }
 
 function hear(seen: Seen, itsTurn: number): void {

@@ -1,4 +1,4 @@
-/** What two pages with one scan each tell each other, so that their views stay linked. */
+/** What two pages with one scan each send each other, so that their views stay linked. */
 import type { Camera, LineId, Method, ScanIdentity, Settings, Vector, Window } from './messages';
 
 export const LINKS = ['cameras', 'cross-hairs', 'windows', 'looks'] as const;

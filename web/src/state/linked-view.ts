@@ -1,4 +1,4 @@
-/** The view as pages with two scans exchange it. Only the page that the user operates tells its view. */
+/** The view as pages with two scans exchange it. Only the page that the user operates sends its view. */
 import { batch, computed, effect } from '@preact/signals';
 import { resized } from '../core/camera';
 import type { LinkedPlace, OtherScan, Seen } from '../core/linked';
@@ -41,12 +41,12 @@ export function setOperated(is: boolean): void {
 export const seenNow = (): Seen => Object.assign({}, ...PARTS.map((part) => part()));
 
 /** Tells each change of the view while the user operates this page. Returns a function that stops this. */
-export function followSeen(tell: (seen: Seen) => void): () => void {
+export function followSeen(send: (seen: Seen) => void): () => void {
   const ends = PARTS.map((part) =>
     effect(() => {
       const seen = part();
       if (seen && isOperated) {
-        tell(seen);
+        send(seen);
       }
     }),
   );

@@ -32,7 +32,7 @@ pub(crate) fn flag_stents(bench: &Bench, places: &[SectionPlane], sections: &mut
     }
 }
 
-/// Flags the sections between and beside rings of a stent as metal instead of calcium or a vessel beside.
+/// Flags the sections between and next to rings of a stent as metal instead of calcium or a vessel beside.
 fn join_rings(at: &[f64], flags: &mut [u32]) {
     join(at, flags, |_, length| length <= RINGS);
     for run in runs(flags).into_iter().filter(|run| is_stent(at, run)) {
