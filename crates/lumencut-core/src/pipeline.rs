@@ -2,6 +2,7 @@
 //! every pixel, `look` shows the volume there. A reformation finds the positions in another way and then also uses
 //! `look`.
 
+mod edges;
 mod images;
 mod pass;
 
@@ -11,6 +12,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use web_time::Instant;
 
+pub use self::edges::EdgeSamples;
 pub use self::images::Images;
 use self::pass::Lines;
 pub use self::pass::{CutSurfacePass, LookPass, SurfaceDetails};

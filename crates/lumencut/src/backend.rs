@@ -2,7 +2,7 @@
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
-use lumencut_core::pipeline::{CpuRenderer, Request};
+use lumencut_core::pipeline::{CpuRenderer, EdgeSamples, Request};
 use lumencut_core::scene::{Scene, SharedVolume};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_gpu::renderer::GpuRenderer;
@@ -11,7 +11,7 @@ use lumencut_gpu::screen::Screen;
 
 use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
-use crate::samples::{Mean, sub_views};
+use crate::samples::{Mean, offsets, sub_views};
 
 /// Environment variable with stages (comma-separated) that run on the CPU instead of the GPU, to find a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
@@ -81,6 +81,14 @@ impl Backend {
             let samples = views.iter().filter(|camera| *camera != request.camera).count();
             progress.expect_views(if has_samples { 1 + samples } else { 1 });
         }
+        let has_edges = method == Method::CutSurface
+            && views.len() == 1
+            && request.settings.edge_samples > 1
+            && request.images.has(Image::Picture)
+            && EdgeSamples::has_edges(scene, request.settings);
+        if has_edges {
+            return self.render_edges(scene, request).await;
+        }
         let mut frame = self.render_once(method, scene, request).await?;
         if has_samples {
             let mut mean = Mean::of(frame.image.len());
@@ -99,6 +107,32 @@ impl Backend {
         Ok((frame, self.unreported.take()))
     }
 
+    /// Renders a view with several samples in the pixels at and next to lines, which the CPU computes on every device.
+    async fn render_edges(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
+        let asked = Request { images: request.images.and(EdgeSamples::READS), ..*request };
+        let mut frame = self.render_once(Method::CutSurface, scene, &asked).await?;
+        if let (Some(tree), Some(volume)) = (&scene.tree, &scene.volume) {
+            let offsets = offsets(request.camera, request.settings.edge_samples);
+            let beside: Vec<_> = offsets.iter().copied().filter(|offset| *offset != [0.0; 2]).collect();
+            let cpu = match &mut self.computer {
+                Computer::Cpu(cpu) => cpu,
+                Computer::Gpu(gpu) => &mut gpu.edges,
+            };
+            let samples = cpu.edge_samples((tree, volume), request, &frame, &beside)?;
+            let pixels = || samples.pixels.iter().map(|pixel| *pixel as usize);
+            let mut mean = Mean::of(samples.pixels.len());
+            samples.colors.iter().for_each(|colors| mean.add(colors));
+            if beside.len() < offsets.len() {
+                mean.add(&pixels().map(|pixel| frame.image[pixel]).collect::<Vec<_>>());
+            }
+            for (pixel, color) in pixels().zip(mean.pixels()) {
+                frame.image[pixel] = color;
+            }
+            frame.count(&samples.timings);
+        }
+        Ok((frame.keeping(request.images), self.unreported.take()))
+    }
+
     /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves
     /// the GPU. Fails as [`Backend::render_by`] does, and with [`ErrorKind::Device`] even if the GPU is optional, so
     /// that the caller can choose the device.
@@ -110,7 +144,8 @@ impl Backend {
         request: &Request<'_>,
         mut screen: Option<&mut Screen>,
     ) -> Result<Drawn> {
-        let is_alone = method == Method::CutSurface && request.settings.samples == 1;
+        let has_samples = request.settings.samples > 1 || request.settings.edge_samples > 1;
+        let is_alone = method == Method::CutSurface && !has_samples;
         if is_alone && let (Some(screen), Computer::Gpu(gpu)) = (screen.as_deref_mut(), &mut self.computer) {
             gpu.draw(scene, request, screen).await?;
             return Ok(Drawn::OnScreen);
@@ -226,12 +261,21 @@ struct Gpu {
     is_optional: bool,
     name: String,
     renderer: Option<GpuRenderer>,
+    /// Computes the samples at lines.
+    edges: CpuRenderer,
     process: u32,
 }
 
 impl Gpu {
     fn new(choice: Choice, is_optional: bool) -> Self {
-        Self { choice, is_optional, name: String::new(), renderer: None, process: devices::process() }
+        Self {
+            choice,
+            is_optional,
+            name: String::new(),
+            renderer: None,
+            edges: CpuRenderer::default(),
+            process: devices::process(),
+        }
     }
 
     /// The renderer; it is opened again after a failure and in a forked process.

@@ -7,14 +7,19 @@ use crate::views::panned;
 
 /// Views at `samples` × `samples` even positions within a pixel, row by row. They are shifted in their plane, so depths stay valid.
 pub(crate) fn sub_views(camera: &Camera, samples: usize) -> Result<Vec<Camera>> {
-    let offset = |n: usize| ((n as f64 + 0.5) / samples as f64 - 0.5) * camera.pixel_spacing();
-    let places = (0..samples).flat_map(|j| (0..samples).map(move |i| (i, j)));
-    places
-        .map(|(i, j)| match (offset(i), offset(j)) {
-            (0.0, 0.0) => Ok(*camera),
-            (right, down) => panned(camera, right, -down),
+    offsets(camera, samples)
+        .into_iter()
+        .map(|offset| match offset {
+            [0.0, 0.0] => Ok(*camera),
+            [right, up] => panned(camera, right, up),
         })
         .collect()
+}
+
+/// Offsets (mm to the right and upwards) of `samples` × `samples` even positions from the middle of a pixel, row by row.
+pub(crate) fn offsets(camera: &Camera, samples: usize) -> Vec<[f64; 2]> {
+    let offset = |n: usize| ((n as f64 + 0.5) / samples as f64 - 0.5) * camera.pixel_spacing();
+    (0..samples).flat_map(|j| (0..samples).map(move |i| [offset(i), -offset(j)])).collect()
 }
 
 pub(crate) struct Mean {

@@ -66,6 +66,10 @@ class Settings(CheckedSettings):
     samples : int, 1 to 4, default 1
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
+    edge_samples : int, 1 to 4, default 3
+        Average N × N samples per pixel at and next to silhouettes (count, 1 to 4). Lines and the edges
+        under them become smoother; only the picture changes. Needs the silhouette rule ``leap``. No effect
+        with ``samples`` above 1.
     window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
@@ -153,6 +157,7 @@ class Settings(CheckedSettings):
     zone_filter: bool = True
     depth_leap: float = 1.0
     samples: int = 1
+    edge_samples: int = 3
     window: Window | str | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True

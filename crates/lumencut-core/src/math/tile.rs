@@ -1,6 +1,6 @@
 //! Tiles of pixels, which share one walk through the hierarchy; a part of a tile fills one vector.
 
-use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
+use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger, smaller};
 use crate::camera::Camera;
 
 const PARTS_ACROSS: usize = COLUMNS / PART_SIDE;
@@ -100,6 +100,29 @@ impl Tile {
         let [hx, hy] = area.half;
         Self { x, y, area, parts, radius: (hx * hx + hy * hy).sqrt(), bits: Bits::new() }
     }
+
+    /// The tile of these places (view x and y, mm), in rows of sixteen, wherever they lie.
+    #[inline(never)]
+    pub(crate) fn of_places(places: &[[f32; 2]; PIXELS]) -> Self {
+        let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
+        for l in 0..PIXELS {
+            let (r, c) = PIXEL_OF_LANE[l];
+            [x[l], y[l]] = places[r * COLUMNS + c];
+        }
+        let area = around(&extent(&x), &extent(&y));
+        let mut parts = [area; PARTS];
+        for (p, part) in parts.iter_mut().enumerate() {
+            let lanes = p * PART_PIXELS..(p + 1) * PART_PIXELS;
+            *part = around(&extent(&x[lanes.clone()]), &extent(&y[lanes]));
+        }
+        let [hx, hy] = area.half;
+        Self { x, y, area, parts, radius: (hx * hx + hy * hy).sqrt(), bits: Bits::new() }
+    }
+}
+
+fn extent(values: &[f32]) -> [f32; 2] {
+    let start = [values[0]; 2];
+    values.iter().fold(start, |[low, high], value| [smaller(low, *value), larger(high, *value)])
 }
 
 #[inline(always)]

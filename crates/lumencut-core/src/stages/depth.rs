@@ -31,6 +31,8 @@ pub struct CutSurface<'a> {
     levels: &'a [Level],
     projected: &'a [ProjectedLevel],
     camera: &'a Camera,
+    /// Places of the view (x and y, mm), a tile after the other, instead of the pixels of the camera.
+    places: Option<&'a [[[f32; 2]; PIXELS]]>,
     rule: Rule,
     lumen_first: bool,
     level_choice: LevelChoice,
@@ -53,6 +55,7 @@ impl<'a> CutSurface<'a> {
             levels,
             projected,
             camera,
+            places: None,
             rule: parameters.rule(),
             lumen_first: settings.lumen_first,
             level_choice: settings.level_choice,
@@ -63,6 +66,27 @@ impl<'a> CutSurface<'a> {
 
     pub fn camera(&self) -> &'a Camera {
         self.camera
+    }
+
+    /// The same surface at `places`, as an image of [`COLUMNS`] columns: each tile holds one entry of `places`.
+    #[must_use]
+    pub fn at(self, places: &'a [[[f32; 2]; PIXELS]]) -> Self {
+        Self { places: Some(places), ..self }
+    }
+
+    /// Number of columns of the images of this surface.
+    #[inline(always)]
+    pub(crate) fn width(&self) -> usize {
+        if self.places.is_some() { COLUMNS } else { self.camera.size()[0] }
+    }
+
+    /// The tile whose first pixel is (`i`, `j`).
+    #[inline(always)]
+    pub(crate) fn tile(&self, i: usize, j: usize) -> Tile {
+        match self.places {
+            Some(places) => Tile::of_places(&places[j / ROWS]),
+            None => Tile::new(self.camera, i, j),
+        }
     }
 
     pub fn finest(&self) -> &'a Hierarchy {
@@ -233,10 +257,10 @@ struct TileSurface {
 impl DepthRow<'_> {
     #[inline(always)]
     fn fill<const LUMEN_FIRST: bool>(self, search: &mut impl Search) {
-        let (surface, camera) = (self.surface, self.surface.camera);
-        let (width, with_sheet) = (camera.size()[0], !self.sheet.is_empty());
+        let surface = self.surface;
+        let (width, with_sheet) = (surface.width(), !self.sheet.is_empty());
         for column in (0..width).step_by(COLUMNS) {
-            let tile = Tile::new(camera, column, self.row * ROWS);
+            let tile = surface.tile(column, self.row * ROWS);
             let mut blended = (!self.blend.is_empty()).then(|| Blended::new(surface.distance_rule));
             let of_tile = blended.as_mut();
             let over = match surface.level_choice {

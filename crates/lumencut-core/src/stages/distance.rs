@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::depth::CutSurface;
 use super::{Image, Work};
-use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::hierarchy::Hierarchy;
 use crate::math::lanes::{COLUMNS, Kernel, PIXELS, ROWS, UNSET, dispatch};
@@ -46,16 +45,15 @@ pub(crate) fn distance_by<M: Measure>(
     measure: impl Fn() -> M + Sync,
 ) -> Result<()> {
     work.expect_whole(Image::Distance, distance);
-    let camera = surface.camera();
     distance.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, pixels)| {
         work.begin(pixels.len())?;
-        dispatch(work.isa, DistanceRow { camera, measure: measure(), row, pixels });
+        dispatch(work.isa, DistanceRow { surface, measure: measure(), row, pixels });
         Ok(())
     })
 }
 
 struct DistanceRow<'a, M: Measure> {
-    camera: &'a Camera,
+    surface: &'a CutSurface<'a>,
     measure: M,
     row: usize,
     pixels: &'a mut [f32],
@@ -66,9 +64,9 @@ impl<M: Measure> Kernel for DistanceRow<'_, M> {
 
     #[inline(always)]
     fn run(mut self) {
-        let width = self.camera.size()[0];
+        let width = self.surface.width();
         for column in (0..width).step_by(COLUMNS) {
-            let tile = Tile::new(self.camera, column, self.row * ROWS);
+            let tile = self.surface.tile(column, self.row * ROWS);
             let mut squared = [UNSET; PIXELS];
             self.measure.lower(&tile, &mut squared);
             for l in 0..PIXELS {

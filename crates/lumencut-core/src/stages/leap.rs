@@ -137,11 +137,22 @@ impl Strip {
     fn put(&mut self, depth: &[f32; FAN], sheet: &[Sheet; FAN]) {
         self.z = *depth;
         for l in 0..FAN {
-            let [slope_x, slope_y, radius, gap] = sheet[l];
-            (self.slope[0][l], self.slope[1][l]) = (slope_x, slope_y);
-            self.threshold[l] = larger(2.0 * radius.abs(), SMALLEST_LEAP);
-            self.is_lumen[l] = radius > 0.0;
-            self.is_first[l] = gap < 0.0;
+            let side = Side::new(depth[l], sheet[l]);
+            [self.slope[0][l], self.slope[1][l]] = side.slope;
+            self.threshold[l] = side.threshold;
+            self.is_lumen[l] = side.is_lumen;
+            self.is_first[l] = side.is_first;
+        }
+    }
+
+    #[inline(always)]
+    fn side(&self, l: usize) -> Side {
+        Side {
+            z: self.z[l],
+            slope: [self.slope[0][l], self.slope[1][l]],
+            threshold: self.threshold[l],
+            is_lumen: self.is_lumen[l],
+            is_first: self.is_first[l],
         }
     }
 
@@ -150,23 +161,51 @@ impl Strip {
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];
         for l in 0..FAN {
-            let change = others.z[l] - self.z[l];
-            let ends_first = self.is_first[l] != others.is_first[l];
-            let is_leap =
-                self.is_off(l, change, step, ends_first) & others.is_off(l, change, step, ends_first);
-            let is_farther = (self.is_lumen[l] == others.is_lumen[l]) & (change > 0.0);
-            let line_beyond = is_farther | (self.is_lumen[l] & !others.is_lumen[l]);
-            let line = if line_beyond { LINE_TO_THE_RIGHT | LINE_DOWNWARDS } else { 0 };
-            leaps[l] = if is_leap { line | TO_THE_RIGHT | DOWNWARDS } else { 0 };
+            leaps[l] = self.side(l).leap_to(&others.side(l), step);
         }
         leaps
     }
+}
 
-    /// Whether the depth change at pixel `l` differs too much from the change that its slope predicts.
-    /// `ends_first` states whether a chosen vessel ends there.
+/// The cut surface on one side of a border between pixels; the fields are those of [`Strip`].
+#[derive(Clone, Copy)]
+pub(crate) struct Side {
+    z: f32,
+    slope: [f32; 2],
+    threshold: f32,
+    pub is_lumen: bool,
+    is_first: bool,
+}
+
+impl Side {
     #[inline(always)]
-    fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
-        let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];
-        (change - expected).abs() > if ends_first { SMALLEST_LEAP } else { self.threshold[l] }
+    pub(crate) fn new(z: f32, [slope_x, slope_y, radius, gap]: Sheet) -> Self {
+        Self {
+            z,
+            slope: [slope_x, slope_y],
+            threshold: larger(2.0 * radius.abs(), SMALLEST_LEAP),
+            is_lumen: radius > 0.0,
+            is_first: gap < 0.0,
+        }
+    }
+
+    /// Bits, for both directions, that mark a depth jump to another side, `step` away (view x and y, mm).
+    #[inline(always)]
+    pub(crate) fn leap_to(&self, other: &Self, step: [f32; 2]) -> u32 {
+        let change = other.z - self.z;
+        let ends_first = self.is_first != other.is_first;
+        let is_leap = self.is_off(change, step, ends_first) & other.is_off(change, step, ends_first);
+        let is_farther = (self.is_lumen == other.is_lumen) & (change > 0.0);
+        let line_beyond = is_farther | (self.is_lumen & !other.is_lumen);
+        let line = if line_beyond { LINE_TO_THE_RIGHT | LINE_DOWNWARDS } else { 0 };
+        if is_leap { line | TO_THE_RIGHT | DOWNWARDS } else { 0 }
+    }
+
+    /// Whether a depth change differs too much from the change that the slope predicts. `ends_first` states
+    /// whether a chosen vessel ends there.
+    #[inline(always)]
+    fn is_off(&self, change: f32, step: [f32; 2], ends_first: bool) -> bool {
+        let expected = self.slope[0] * step[0] + self.slope[1] * step[1];
+        (change - expected).abs() > if ends_first { SMALLEST_LEAP } else { self.threshold }
     }
 }

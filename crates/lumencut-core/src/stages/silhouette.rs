@@ -100,6 +100,21 @@ pub fn silhouette_of_leaps(
     })
 }
 
+/// [`silhouette_of_leaps`] at some `pixels` alone, one strength for each.
+pub fn silhouette_at(
+    width: usize,
+    parameters: &SilhouetteParameters,
+    [leap, pixels]: [&[u32]; 2],
+    value: &[f32],
+    strength: &mut [f32],
+) {
+    let lines = LeapLines::new(leap, value, width, parameters.line_width);
+    strength.par_iter_mut().zip(pixels).for_each(|(strength, pixel)| {
+        let pixel = *pixel as usize;
+        *strength = lines.cover([pixel % width, pixel / width].map(|n| n as isize));
+    });
+}
+
 struct Strength<'a> {
     slopes: &'a mut [f32],
     half: f32,

@@ -43,14 +43,14 @@ impl<'a> LeapLines<'a> {
                 continue;
             }
             for (l, strength) in (0..).zip(strength) {
-                let here = [i + l, j];
-                *strength = if self.is_lumen(here) {
-                    self.cover_of_lumen(here)
-                } else {
-                    self.cover_beside_lumen(here)
-                };
+                *strength = self.cover([i + l, j]);
             }
         }
+    }
+
+    /// The share of a pixel that lines cover.
+    pub(super) fn cover(&self, here: PixelStep) -> f32 {
+        if self.is_lumen(here) { self.cover_of_lumen(here) } else { self.cover_beside_lumen(here) }
     }
 
     /// Whether the line of any depth jump can reach the sixteen pixels of row `j` from column `i` on.
