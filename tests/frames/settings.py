@@ -85,6 +85,7 @@ def surface_settings() -> Iterator[tuple[str, Values]]:
     yield "paper, lumen_first", {**PAPER, "lumen_first": True}
     yield from each("centerline_smoothing", (0.5, 2))
     yield from each("samples", (2, 3, 4))
+    yield from each("edge_samples", (1, 2, 4))
 
 
 def picture_settings() -> Iterator[tuple[str, Values]]:

@@ -92,7 +92,7 @@ class Scene:
         self, camera: Camera, settings: Settings, progress: Callable[[int, int], object] | None = None
     ) -> Frame:
         """Return a view with only the picture, for fast movement."""
-        quick = replace(settings, samples=1, context_preview=True)
+        quick = replace(settings, samples=1, edge_samples=1, context_preview=True)
         return self.renderer.render(camera, quick, images=["image"], progress=progress)
 
     def picked(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> Pick:

@@ -18,7 +18,7 @@ const CONTEXTS: readonly (readonly [string, string])[] = [
 /** Kinds of settings that have a control in this menu. Windows are set in the window strip. */
 const KINDS: readonly string[] = ['flag', 'number', 'count', 'choice', 'transfer'];
 /** Settings that have a control elsewhere, or that the view determines. */
-const ELSEWHERE: readonly string[] = ['context', 'samples', 'context_preview'];
+const ELSEWHERE: readonly string[] = ['context', 'samples', 'edge_samples', 'context_preview'];
 
 export function ResearchMenu() {
   const rows = (started.value?.table ?? []).filter(

@@ -2,7 +2,7 @@
 
 import { sampled } from '../core/camera';
 import { Failure } from '../core/failure';
-import type { Drawn, View } from '../core/messages';
+import type { Drawn, Settings, View } from '../core/messages';
 import { engine } from '../worker/engine';
 
 /** Wanted time of a frame while the view moves (ms): 16 frames per second, and sharp ones. */
@@ -125,14 +125,14 @@ export class FrameLoop {
   }
 
   private atStage(view: View, stage: Stage): View {
+    const plain: Settings = { ...view.settings, samples: 1, edge_samples: 1 };
     if (stage === 'moving') {
-      const settings = { ...view.settings, context_preview: true, samples: 1 };
+      const settings = { ...plain, context_preview: true };
       return { ...view, camera: sampled(view.camera, this.factor), settings };
     }
     const camera = sampled(view.camera, Math.min(window.devicePixelRatio || 1, MOST_DENSE));
-    return stage === 'samples'
-      ? { ...view, camera, settings: { ...view.settings, samples: SAMPLES } }
-      : { ...view, camera };
+    const settings = stage === 'samples' ? { ...plain, samples: SAMPLES } : plain;
+    return { ...view, camera, settings };
   }
 
   /** Adapts the resolution of moving frames to the time they take, by at most half. Frames at rest do not count. */

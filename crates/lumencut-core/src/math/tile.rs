@@ -101,13 +101,12 @@ impl Tile {
         Self { x, y, area, parts, radius: (hx * hx + hy * hy).sqrt(), bits: Bits::new() }
     }
 
-    /// The tile of these places (view x and y, mm), in rows of sixteen, wherever they lie.
+    /// The tile of these places (view x and y, mm), by lane, wherever they lie.
     #[inline(never)]
     pub(crate) fn of_places(places: &[[f32; 2]; PIXELS]) -> Self {
         let (mut x, mut y) = ([0.0; PIXELS], [0.0; PIXELS]);
         for l in 0..PIXELS {
-            let (r, c) = PIXEL_OF_LANE[l];
-            [x[l], y[l]] = places[r * COLUMNS + c];
+            [x[l], y[l]] = places[l];
         }
         let area = around(&extent(&x), &extent(&y));
         let mut parts = [area; PARTS];

@@ -8,11 +8,12 @@ use super::{Clock, CpuRenderer, Request};
 use crate::error::Result;
 use crate::frame::{Frame, Timing};
 use crate::geometry::{Curved, Geometry};
-use crate::math::lanes::{COLUMNS, PIXELS};
+use crate::math::lanes::{COLUMNS, PIXELS, ROWS};
 use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::{LevelChoice, Settings, SilhouetteRule, SlabMode};
 use crate::stages::composite::{CompositeParameters, Layers, composite};
+use crate::stages::depth::{PLACES_ACROSS, entry_of_place};
 use crate::stages::focus::Shares;
 use crate::stages::leap::Side;
 use crate::stages::silhouette::{SilhouetteParameters, silhouette_at};
@@ -120,10 +121,9 @@ impl EdgeView<'_> {
 
     /// The shares of cut surface and silhouettes in the middle of pixels.
     fn shares(&self, pixels: &[u32]) -> Result<Vec<Shares>> {
-        let images = self.run(&[Stage::Focus], &self.tiles(pixels, &[[0.0; 2]]))?;
-        let mut shares = images.focus;
-        shares.resize(pixels.len(), [1.0; 2]);
-        Ok(shares)
+        let Images { focus, .. } = self.run(&[Stage::Focus], &self.tiles(pixels, &[[0.0; 2]]))?;
+        let share = |n| focus.get(entry_of_place(n)).copied().unwrap_or([1.0; 2]);
+        Ok((0..pixels.len()).map(share).collect())
     }
 
     /// The cut surface at all offsets, for one offset after the other.
@@ -133,14 +133,14 @@ impl EdgeView<'_> {
         let Images { unfiltered_depth: depth, sheet, .. } =
             self.run(stages, &self.tiles(&self.pixels, offsets))?;
         let sample = |n: usize, k: usize| {
-            let at = k * offsets.len() + n;
+            let at = entry_of_place(k * offsets.len() + n);
             Sample { depth: depth[at], side: Side::new(depth[at], sheet[at]) }
         };
         let of_offset = |n| (0..self.pixels.len()).map(|k| sample(n, k)).collect();
         Ok((0..offsets.len()).map(of_offset).collect())
     }
 
-    /// All offsets of a pixel, then those of the next; the last tile repeats the last place.
+    /// All offsets of a pixel, then those of the next; the last place repeats up to the end of a row of tiles.
     fn tiles(&self, pixels: &[u32], offsets: &[[f64; 2]]) -> Vec<[[f32; 2]; PIXELS]> {
         let camera = self.request.camera;
         let places = pixels.iter().flat_map(|pixel| {
@@ -149,8 +149,10 @@ impl EdgeView<'_> {
             offsets.iter().map(move |[x, y]| [(middle[0] + x) as f32, (middle[1] + y) as f32])
         });
         let places: Vec<[f32; 2]> = places.collect();
-        let tile = |places: &[[f32; 2]]| std::array::from_fn(|n| places[n.min(places.len() - 1)]);
-        places.chunks(PIXELS).map(tile).collect()
+        let Some(last) = places.last() else { return Vec::new() };
+        let count = places.len().div_ceil(PIXELS).next_multiple_of(PLACES_ACROSS);
+        let tile = |tile| std::array::from_fn(|n| *places.get(tile * PIXELS + n).unwrap_or(last));
+        (0..count).map(tile).collect()
     }
 
     /// Runs stages of the cut surface at places of the view.
@@ -161,7 +163,7 @@ impl EdgeView<'_> {
         }
         let pass = self.renderer.pass(self.request);
         let pass = CutSurfacePass {
-            work: self.work([COLUMNS, tiles.len() * PIXELS / COLUMNS]),
+            work: self.work([PLACES_ACROSS * COLUMNS, tiles.len() / PLACES_ACROSS * ROWS]),
             surface: pass.surface.at(tiles),
             has_sheet: true,
             wanted: ImageSet::of(&[]),
@@ -255,7 +257,8 @@ impl EdgeLeaps {
                 bits |= self.leap_to(samples, [at, at + 1], [side, 0.0]) & (TO_THE_RIGHT | LINE_TO_THE_RIGHT);
             }
             if j + 1 < size[1] {
-                bits |= self.leap_to(samples, [at, at + size[0]], [0.0, -side]) & (DOWNWARDS | LINE_DOWNWARDS);
+                bits |=
+                    self.leap_to(samples, [at, at + size[0]], [0.0, -side]) & (DOWNWARDS | LINE_DOWNWARDS);
             }
             (self.leap[at], self.value[at]) = (bits, *value);
         }

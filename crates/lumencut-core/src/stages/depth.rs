@@ -21,7 +21,7 @@ use crate::math::levels::CutSurfaceParameters;
 use crate::math::own_pieces::{NearestPieces, OwnPieces};
 use crate::math::pieces::Envelope;
 use crate::math::projection::{Level, ProjectedLevel};
-use crate::math::tile::{Tile, gather, scatter};
+use crate::math::tile::{PIXEL_OF_LANE, Tile, gather, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
 use crate::math::whole_curve;
 use crate::settings::{DistanceRule, LevelChoice, MAX_LEVELS, Settings};
@@ -68,23 +68,24 @@ impl<'a> CutSurface<'a> {
         self.camera
     }
 
-    /// The same surface at `places`, as an image of [`COLUMNS`] columns: each tile holds one entry of `places`.
+    /// The same surface at `places`, a whole number of rows of [`PLACES_ACROSS`] tiles; [`entry_of_place`] states
+    /// where they lie in images.
     #[must_use]
-    pub fn at(self, places: &'a [[[f32; 2]; PIXELS]]) -> Self {
+    pub(crate) fn at(self, places: &'a [[[f32; 2]; PIXELS]]) -> Self {
         Self { places: Some(places), ..self }
     }
 
     /// Number of columns of the images of this surface.
     #[inline(always)]
     pub(crate) fn width(&self) -> usize {
-        if self.places.is_some() { COLUMNS } else { self.camera.size()[0] }
+        if self.places.is_some() { PLACES_ACROSS * COLUMNS } else { self.camera.size()[0] }
     }
 
     /// The tile whose first pixel is (`i`, `j`).
     #[inline(always)]
     pub(crate) fn tile(&self, i: usize, j: usize) -> Tile {
         match self.places {
-            Some(places) => Tile::of_places(&places[j / ROWS]),
+            Some(places) => Tile::of_places(&places[j / ROWS * PLACES_ACROSS + i / COLUMNS]),
             None => Tile::new(self.camera, i, j),
         }
     }
@@ -111,6 +112,16 @@ impl<'a> CutSurface<'a> {
             rule: &self.rule,
         }
     }
+}
+
+/// Number of tiles of places in a row; a search begins with what it found in the tile before.
+pub(crate) const PLACES_ACROSS: usize = 8;
+
+/// The entry, in the images of a surface at places, of place `n`.
+pub(crate) fn entry_of_place(n: usize) -> usize {
+    let (tile, (r, c)) = (n / PIXELS, PIXEL_OF_LANE[n % PIXELS]);
+    let (row, column) = (tile / PLACES_ACROSS * ROWS + r, tile % PLACES_ACROSS * COLUMNS + c);
+    row * PLACES_ACROSS * COLUMNS + column
 }
 
 pub(crate) trait Search {

@@ -89,11 +89,15 @@ impl<'a> LeapLines<'a> {
             return 0.0;
         }
         let mut cover = 0f32;
-        for down in -self.reach..=self.reach {
-            for right in -self.reach..=self.reach {
-                // The pixel whose leaps are tested: `right` columns left of `here` and `down` rows above.
-                let owner = [here[0] - right, here[1] - down];
-                let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
+        for j in (here[1] - self.reach).max(0)..(here[1] + self.reach + 1).min(self.size[1]) {
+            let columns = (here[0] - self.reach).max(0)..(here[0] + self.reach + 1).min(self.size[0]);
+            let row = (j * self.size[0] + columns.start) as usize..(j * self.size[0] + columns.end) as usize;
+            for (i, bits) in columns.zip(&self.leap[row]) {
+                if bits & LEAPS == 0 {
+                    continue;
+                }
+                let (owner, [right, down]) = ([i, j], [here[0] - i, here[1] - j]);
+                let (x, y) = (right as f32, down as f32);
                 if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
                     cover = cover.max(self.cover_at(x - 0.5, y));
                 }
