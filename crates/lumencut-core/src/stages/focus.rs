@@ -142,12 +142,13 @@ impl Kernel for FocusRow<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let width = self.surface.width();
+        let camera: &Camera = self.surface.camera();
+        let width = camera.size()[0];
         let slack = self.surface.distance_slack();
         let [of_both, of_surface] =
             [&[SURFACE, LINES][..], &[SURFACE]].map(|which| self.parameters.range(which, slack));
         for column in (0..width).step_by(COLUMNS) {
-            let tile = self.surface.tile(column, self.row * ROWS);
+            let tile = Tile::new(camera, column, self.row * ROWS);
             // A finite distance, larger than all that are compared.
             let mut beyond = [FAR; PIXELS];
             let has_lines = self.has_lines.get(column / COLUMNS).is_none_or(|has_lines| *has_lines);
