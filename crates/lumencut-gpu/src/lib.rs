@@ -13,6 +13,7 @@ pub mod device;
 mod images;
 mod leap;
 mod levels;
+mod occlusion;
 #[cfg(not(target_arch = "wasm32"))]
 mod on_cpu;
 mod pass;

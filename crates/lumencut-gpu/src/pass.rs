@@ -102,6 +102,7 @@ impl<'a> Pass<'a> {
             Stage::Leap => self.leap(),
             Stage::DepthFilter => self.depth_filter(),
             Stage::Focus => self.focus(),
+            Stage::Occlusion => self.occlusion(),
             Stage::Surface => return self.surface(),
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
@@ -159,6 +160,12 @@ impl<'a> Pass<'a> {
         let (Some(levels), Some(parameters)) = (self.levels, parameters) else { return };
         let Stages { view, cut_surface, .. } = &*self.stages;
         cut_surface.focus(&mut self.recording, view, levels, parameters, self.images);
+    }
+
+    fn occlusion(&mut self) {
+        let Stages { view, occlusion, .. } = &*self.stages;
+        let depth = self.buffer(Image::Depth);
+        occlusion.record(&mut self.recording, view, (self.images, depth), self.request.camera);
     }
 
     fn surface(&mut self) -> Result<()> {
@@ -273,8 +280,7 @@ impl<'a> Pass<'a> {
 
 fn bytes_of(image: Image) -> usize {
     match image {
-        Image::Gathered | Image::Sheet | Image::Blend => 16,
-        Image::Focus => 8,
+        Image::Gathered | Image::Sheet | Image::Blend | Image::Focus => 16,
         _ => 4,
     }
 }

@@ -16,6 +16,7 @@ use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
 use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
+use crate::stages::occlusion::{OcclusionParameters, occlusion};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
@@ -60,6 +61,11 @@ impl CutSurfacePass<'_> {
             }
             Stage::DepthFilter => self.depth_filter(images),
             Stage::Focus => self.focus(images),
+            Stage::Occlusion => {
+                let Images { unfiltered_depth, depth, focus, .. } = images;
+                let depth = if depth.is_empty() { unfiltered_depth } else { depth };
+                occlusion(work, &OcclusionParameters::new(self.surface.camera()), depth, focus)
+            }
             Stage::Levels
             | Stage::Projection
             | Stage::Surface
@@ -74,7 +80,7 @@ impl CutSurfacePass<'_> {
         let Some(parameters) = FocusParameters::new(self.settings, self.surface.camera()) else {
             return Ok(());
         };
-        images.focus = vec![[0.0; 2]; self.work.pixels()];
+        images.focus = vec![[0.0; 4]; self.work.pixels()];
         // The focus image needs exact shares in every pixel; silhouettes need them only near depth jumps.
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
@@ -123,7 +129,8 @@ impl LookPass<'_> {
             | Stage::Depth
             | Stage::Leap
             | Stage::DepthFilter
-            | Stage::Focus => Ok(()),
+            | Stage::Focus
+            | Stage::Occlusion => Ok(()),
         }
     }
 
@@ -264,7 +271,7 @@ impl SurfaceDetails {
         let depth = if depth.is_empty() { unfiltered_depth } else { depth };
         let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap, value: &[] };
         let mut strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
-        for (strength, [surface, line]) in strength.iter_mut().zip(&focus) {
+        for (strength, [surface, line, ..]) in strength.iter_mut().zip(&focus) {
             *strength *= surface * line;
         }
         Ok(Self { sheet, leap, strength })
