@@ -5,6 +5,7 @@
 
 pub mod adapter;
 mod blocks;
+mod body;
 mod composite;
 mod context;
 mod cut_surface;

@@ -4,6 +4,7 @@ use lumencut_core::geometry::Geometry;
 use lumencut_core::volume::Volume;
 use wgpu::Buffer;
 
+use crate::body::BodyStage;
 use crate::composite::Composite;
 use crate::context::ContextStage;
 use crate::cut_surface::CutSurfaceStages;
@@ -28,6 +29,7 @@ pub(crate) struct Stages {
     pub surface: Surface,
     pub silhouette: Silhouette,
     pub context: ContextStage,
+    pub body: BodyStage,
     pub composite: Composite,
 }
 
@@ -43,6 +45,7 @@ impl Stages {
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),
             context: ContextStage::new(device),
+            body: BodyStage::new(device),
             composite: Composite::new(device),
         }
     }

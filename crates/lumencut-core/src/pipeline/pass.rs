@@ -9,6 +9,7 @@ use crate::math::context_parameters::StartParameters;
 use crate::math::ray::{NONE, WHOLE};
 use crate::scene::SharedVolume;
 use crate::settings::{Settings, SilhouetteRule, SlabMode};
+use crate::stages::body::{Outline, body};
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
 use crate::stages::context::{SurfaceImages, Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, DepthImages, Sheet, depth};
@@ -72,6 +73,7 @@ impl CutSurfacePass<'_> {
             | Stage::Silhouette
             | Stage::Blocks
             | Stage::Context
+            | Stage::Body
             | Stage::Composite => Ok(()),
         }
     }
@@ -122,6 +124,7 @@ impl LookPass<'_> {
             Stage::Silhouette => self.silhouette(images),
             Stage::Blocks => self.blocks(images),
             Stage::Context => self.context(images),
+            Stage::Body => self.body(images),
             Stage::Composite => self.composite(images),
             Stage::Levels
             | Stage::Projection
@@ -192,6 +195,16 @@ impl LookPass<'_> {
         images.gathered = vec![[0.0; 4]; self.work.pixels()];
         let surroundings = Surroundings { camera, volume, blocks };
         context(&self.work, &surroundings, self.settings, chosen, &images.start, &mut images.gathered)
+    }
+
+    fn body(&self, images: &mut Images) -> Result<()> {
+        let (Some(camera), Some(found)) = (self.geometry.camera(), self.around.body(self.work.stop)?) else {
+            return Ok(());
+        };
+        if images.gathered.is_empty() {
+            return Ok(());
+        }
+        body(&self.work, &Outline::new(found, camera), &images.start, &mut images.gathered)
     }
 
     fn composite(&self, images: &mut Images) -> Result<()> {

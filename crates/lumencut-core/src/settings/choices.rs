@@ -64,6 +64,7 @@ impl ContextChoices {
             from: self.context_from.unwrap_or(mode.default_from()),
             strength: self.context_strength,
             halo: self.context_halo,
+            body: self.context_body,
             preview: self.context_preview,
         }
     }
@@ -109,6 +110,7 @@ impl From<&Context> for ContextChoices {
             context_from: Some(context.from),
             context_strength: context.strength,
             context_halo: context.halo,
+            context_body: context.body,
             context_preview: context.preview,
         }
     }

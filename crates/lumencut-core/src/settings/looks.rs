@@ -57,7 +57,7 @@ pub const LOOKS: [Look; 5] = [
 
 fn focus() -> Vec<(&'static str, Value)> {
     let mut chosen = shaded(Focus::default());
-    chosen.push(("context_halo", Value::Number(HALO)));
+    chosen.extend([("context_halo", Value::Number(HALO)), ("context_body", Value::Flag(true))]);
     chosen
 }
 

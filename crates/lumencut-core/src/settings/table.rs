@@ -192,6 +192,9 @@ settings! {
         /// Darken the context around a `focus`, most at its edge (number, 0 to 1): the cut stands out.
         context_halo: f64 = 0.0, range(0.0, 1.0, "of its brightness");
 
+        /// Outline the body faintly behind the context, if the scan shows the air around it; not in previews.
+        context_body: bool = false;
+
         /// Trace one ray per 6 × 6 pixels: faster and coarser.
         context_preview: bool = false;
     }

@@ -4,6 +4,8 @@
 #[doc(hidden)]
 pub mod along_rays;
 #[doc(hidden)]
+pub mod body;
+#[doc(hidden)]
 pub mod composite;
 #[doc(hidden)]
 pub mod context;

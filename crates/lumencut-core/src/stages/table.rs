@@ -153,13 +153,15 @@ pub enum Stage {
     Blocks,
     /// Follows rays through the volume.
     Context,
+    /// Puts the outline of the body behind the context.
+    Body,
     /// Composes the picture from all layers.
     Composite,
 }
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
@@ -172,6 +174,7 @@ impl Stage {
         Self::Silhouette,
         Self::Blocks,
         Self::Context,
+        Self::Body,
         Self::Composite,
     ];
 
@@ -190,6 +193,7 @@ impl Stage {
             Self::Silhouette => "silhouette",
             Self::Blocks => "blocks",
             Self::Context => "context",
+            Self::Body => "body",
             Self::Composite => "composite",
         }
     }
@@ -201,7 +205,7 @@ impl Stage {
             Self::Distance | Self::Occlusion => 8,
             Self::Depth => 12,
             Self::Leap | Self::Focus | Self::Surface => 4,
-            Self::DepthFilter | Self::Silhouette => 2,
+            Self::DepthFilter | Self::Silhouette | Self::Body => 2,
             Self::Context => 14,
             Self::Composite => 10,
         }
@@ -219,6 +223,7 @@ impl Stage {
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Focus, Image::Value],
+            Self::Body => &[Image::Start, Image::Gathered],
             Self::Composite => &[Image::Focus, Image::Value, Image::Strength, Image::Gathered],
         }
     }
@@ -235,6 +240,7 @@ impl Stage {
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
             Self::Context => &[Image::Start, Image::Gathered],
+            Self::Body => &[Image::Gathered],
             Self::Composite => &[Image::Context, Image::Picture],
         }
     }
@@ -300,6 +306,7 @@ impl Stage {
             (Self::Silhouette, has_silhouettes),
             (Self::Blocks, has_context),
             (Self::Context, has_context),
+            (Self::Body, has_context && settings.context.as_ref().is_some_and(|c| c.body && !c.preview)),
             (Self::Composite, has_picture || has_context),
         ];
         needed(&stages)

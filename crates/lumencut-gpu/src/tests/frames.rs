@@ -74,6 +74,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
         ("occlusion", with(|s| s.occlusion = 0.6)),
         ("occlusion of the unfiltered depth", with(|s| (s.occlusion, s.depth_filter) = (1.0, false))),
+        ("the outline of the body", with(|s| s.context = Some(Context { body: true, ..Context::default() }))),
         ("a halo around the focus", with(|s| halo_around(s, &[]))),
         ("a halo around a chosen vessel", with(|s| halo_around(s, &[0]))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
@@ -84,7 +85,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
 fn halo_around(settings: &mut Settings, chosen: &[usize]) {
     settings.focus = Some(Focus { margin: 0.5, fade: 3.0 });
     settings.focus_vessels = chosen.to_vec();
-    settings.context = Some(Context { halo: 0.6, ..Context::default() });
+    settings.context = Some(Context { halo: 0.6, body: true, ..Context::default() });
 }
 
 /// A wide focus in a dimmed context, whose rays start as `from` states.

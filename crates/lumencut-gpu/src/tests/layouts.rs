@@ -7,6 +7,7 @@ use bytemuck::Zeroable;
 use lumencut_core::math::context_parameters::{ContextParameters, RiseParameters};
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::shaders::SHADERS;
+use lumencut_core::stages::body::BodyParameters;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
 use lumencut_core::stages::focus::FocusParameters;
@@ -94,6 +95,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             "stages/focus",
             FocusParameters { margin, per_fade, near, far, others, halo, wall, shade, padding }
         ),
+        host!("stages/body", BodyParameters { size, first, per_pixel, per_line, padding }),
         host!("stages/occlusion", OcclusionParameters { blurs }),
         host!("stages/occlusion", Blur { weights, side, reach, padding }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
