@@ -17,6 +17,7 @@ mod independence;
 mod leaps;
 mod lines;
 mod mpcpr;
+mod occlusion;
 mod one_decision;
 mod paper;
 mod scene;

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut._lumencut import VOLUME_FILES as _KNOWN
 from lumencut.base.checks import callback, integers
 from lumencut.base.file_kinds import kind_of
@@ -245,6 +246,8 @@ def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
     dtype, value_range = file.dtype.newbyteorder("="), None
     if volume is not None:
         dtype, value_range = volume.array.dtype, _finite_range(volume.array, file.notes)
+        cut_off = None if file.is_segmentation else _lumencut.cut_off_note(volume)
+        file.notes.extend([cut_off] if cut_off else [])
     spacing = np.linalg.norm(file.world_from_index[:3, :3], axis=0)
     return VolumeReport(
         path=file.path,

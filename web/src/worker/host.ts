@@ -184,8 +184,8 @@ export class EngineHost {
         const steps = new Steps(onProgress, signal);
         const loaded = await work({ study, loadJudge, loadVolumes, loadPackedVolumes, kindOf, steps });
         const report = this.report();
-        const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
-        const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
+        const ofVolume = (replacing.hasBegun && report.volume?.notes) || [];
+        const every = [...loaded.notes, ...ofVolume, wish.every_second ? COARSER : null];
         const notes = [...new Set(every.filter((note) => note != null))];
         return { ...loaded, notes, report, doubt: replacing.doubt };
       } catch (error) {
