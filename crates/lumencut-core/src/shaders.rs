@@ -60,6 +60,7 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/depth",
     "stages/depth_filter",
     "stages/distance",
+    "stages/far_rim",
     "stages/focus",
     "stages/leap",
     "stages/occlusion",

@@ -3,12 +3,14 @@
 
 use lumencut_core::camera::Camera;
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
+use lumencut_core::math::leaps::{
+    DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT, WALL,
+};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};
 use lumencut_core::scene::LeveledTree;
 use lumencut_core::settings::{LevelChoice, Settings};
 use lumencut_core::stages::Work;
-use lumencut_core::stages::depth::Sheet;
+use lumencut_core::stages::depth::{Sheet, WALL_GAP};
 use lumencut_core::stages::leap::{LeapParameters, leap};
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_scenes::brute_force::by_hierarchy;
@@ -84,7 +86,11 @@ fn the_sheet_of_a_straight_tube_is_its_slope_and_radius_negative_beside_the_lume
             let (x, y) = (camera.view_x(p % SIZE[0]), camera.view_y(p / SIZE[0]));
             let is_lumen = (2.0 * y - x).abs() < 3.0 * 5f64.sqrt();
             let radius = if is_lumen { 3.0 } else { -3.0 };
-            CLOSED_FORM.assert_same(sheet, &[slope[0], slope[1], radius, 0.0], "sheet");
+            // In lumen and wall, the gap states the place along the vessel: here the foot, from the end at (-80, -40).
+            let along = ((x + 80.0) * 2.0 + y + 40.0) / 5f64.sqrt() * 1.2f64.sqrt();
+            let is_wall = (2.0 * y - x).abs() < 4.0 * 5f64.sqrt();
+            let gap = if is_wall { WALL_GAP - along as f32 } else { 0.0 };
+            CLOSED_FORM.assert_same(sheet, &[slope[0], slope[1], radius, gap], "sheet");
         }
     }
 }
@@ -98,7 +104,7 @@ fn within_lumen_and_wall_nothing_is_blended() {
         let (x, y) = (camera.view_x(p % SIZE[0]), camera.view_y(p / SIZE[0]));
         certain_lumen(&scene, &camera, x, y).is_some()
     });
-    assert!(lumens.clone().count() > 200 && lumens.clone().all(|p| gaps[p][3] == 0.0));
+    assert!(lumens.clone().count() > 200 && lumens.clone().all(|p| gaps[p][3] <= WALL_GAP));
     assert!(gaps.iter().any(|sheet| sheet[3] > 1.0), "nothing is blended anywhere");
 }
 
@@ -168,13 +174,14 @@ fn the_leap_image_is_the_rule_applied_pixel_by_pixel_at_any_size() {
         let by = |isa: Isa| {
             let mut found = vec![9; depth.len()];
             let work = Work { size, isa, stop: &|| false, progress: None };
-            leap(&work, &LeapParameters::new(&camera), &depth, &sheet, &mut found).unwrap();
+            leap(&work, &LeapParameters::new(&camera), (&depth, &vec![0; depth.len()]), &sheet, &mut found)
+                .unwrap();
             found
         };
         let found = by(Isa::Baseline);
         assert!(Isa::available().into_iter().all(|isa| by(isa) == found), "{size:?}");
         for (p, leap) in found.iter().enumerate() {
-            assert_eq!(leap & !(LEAPS | LINE_TO_THE_RIGHT | LINE_DOWNWARDS | LUMEN), 0);
+            assert_eq!(leap & !(LEAPS | LINE_TO_THE_RIGHT | LINE_DOWNWARDS | LUMEN | WALL), 0);
             let is_lumen = |p: usize| sheet[p][2] > 0.0;
             assert_eq!(leap & LUMEN != 0, is_lumen(p));
             let ways = [
@@ -198,6 +205,30 @@ fn the_leap_image_is_the_rule_applied_pixel_by_pixel_at_any_size() {
 }
 
 #[test]
+fn folds_of_a_lumen_that_runs_along_the_view_are_no_leaps() {
+    // Two pixels of lumens with a radius of 3 mm, 1 mm apart: a change of more than 6 mm is a leap.
+    let leaps = |deeper: f32, along: f32, vessels: [i32; 2], radii: [f32; 2]| {
+        let gaps = [WALL_GAP - 50.0, WALL_GAP - 50.0 - along];
+        let sheet = [0, 1].map(|n| [0.0, 0.0, radii[n], gaps[n]]);
+        let (camera, mut found) = (front([2, 1], 1.0), vec![0; 2]);
+        let work = Work { size: [2, 1], isa: Isa::widest(), stop: &|| false, progress: None };
+        let parameters = LeapParameters::new(&camera);
+        leap(&work, &parameters, (&[0.0, deeper], &vessels), &sheet, &mut found).unwrap();
+        found[0] & LEAPS != 0
+    };
+    let lumen = [3.0; 2];
+    for sign in [-1.0, 1.0] {
+        // At most 1 / 0.9 as far along the vessel as in depth, and at most two diameters deep.
+        assert!(!leaps(sign * 9.0, 9.9, [4, 4], lumen) && !leaps(sign * 12.0, -12.5, [4, 4], lumen));
+        assert!(leaps(sign * 9.0, 10.1, [4, 4], lumen), "bends");
+        assert!(leaps(sign * 9.0, 60.0, [4, 4], lumen), "comes back in front of itself");
+        assert!(leaps(sign * 12.1, 12.5, [4, 4], lumen), "more than two diameters");
+        assert!(leaps(sign * 9.0, 9.5, [4, 5], lumen), "two vessels");
+        assert!(leaps(sign * 9.0, 9.5, [4, 4], [3.0, -3.0]), "the wall on one side");
+    }
+}
+
+#[test]
 fn the_leaps_of_a_view_are_those_of_its_depth_and_sheet() {
     let scene = random_tree(73, 12, 50, 2.0, 50.0).unwrap();
     for level_choice in [LevelChoice::Own, LevelChoice::Nearest] {
@@ -208,7 +239,8 @@ fn the_leaps_of_a_view_are_those_of_its_depth_and_sheet() {
             let depth = by_hierarchy(&scene, &camera, &settings);
             let mut expected = vec![9; found.len()];
             let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };
-            leap(&work, &LeapParameters::new(&camera), depth.depth(), &sheet, &mut expected).unwrap();
+            let places = (depth.depth(), &depth.vessel[..]);
+            leap(&work, &LeapParameters::new(&camera), places, &sheet, &mut expected).unwrap();
             assert_eq!(found, expected, "{size:?}");
             assert!(strength.iter().all(|s| (0.0..=1.0001).contains(s)));
         }

@@ -11,6 +11,7 @@ mod cr;
 mod cut_surface;
 mod depth_filter;
 mod errors;
+mod far_rim;
 mod focus;
 mod hierarchy_equals_brute_force;
 mod independence;

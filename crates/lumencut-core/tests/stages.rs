@@ -270,7 +270,8 @@ fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
     let depths: Vec<f32> = (0..19 * 7).map(depth).collect();
     let sheets = vec![[90.0, 70.0, 2.0, 0.0]; depths.len()];
     let mut found = vec![9; depths.len()];
-    leap(&on_cpu(&camera), &LeapParameters::new(&camera), &depths, &sheets, &mut found).unwrap();
+    let places = (&depths[..], &vec![0; depths.len()][..]);
+    leap(&on_cpu(&camera), &LeapParameters::new(&camera), places, &sheets, &mut found).unwrap();
     for (p, bits) in found.iter().enumerate() {
         // All pixels are lumen, and the right side of the step lies farther.
         let leap = if place(p).0 == 2 { TO_THE_RIGHT | LINE_TO_THE_RIGHT } else { 0 };

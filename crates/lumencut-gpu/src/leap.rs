@@ -29,7 +29,7 @@ impl Leap {
 
     /// Records the stage that marks the jumps of an unfiltered depth.
     pub(crate) fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
-        let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap];
+        let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap, &images.vessel];
         let buffers = buffers.map(Buffer::as_entire_binding);
         recording.run(&self.stage, &buffers, groups(images.size, GROUP));
     }

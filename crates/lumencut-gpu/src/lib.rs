@@ -11,6 +11,7 @@ mod context;
 mod cut_surface;
 mod depth_filter;
 pub mod device;
+mod far_rim;
 mod images;
 mod leap;
 mod levels;

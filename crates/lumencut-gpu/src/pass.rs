@@ -104,6 +104,7 @@ impl<'a> Pass<'a> {
             Stage::DepthFilter => self.depth_filter(),
             Stage::Focus => self.focus(),
             Stage::Occlusion => self.occlusion(),
+            Stage::FarRim => self.far_rim(),
             Stage::Surface => return self.surface(),
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
@@ -168,6 +169,12 @@ impl<'a> Pass<'a> {
         let Stages { view, occlusion, .. } = &*self.stages;
         let depth = self.buffer(Image::Depth);
         occlusion.record(&mut self.recording, view, (self.images, depth), self.request.camera);
+    }
+
+    fn far_rim(&mut self) {
+        let Stages { view, far_rim, .. } = &*self.stages;
+        let depth = self.buffer(Image::Depth);
+        far_rim.record(&mut self.recording, view, (self.images, depth), self.request);
     }
 
     fn surface(&mut self) -> Result<()> {

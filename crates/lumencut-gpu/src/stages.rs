@@ -10,6 +10,7 @@ use crate::context::ContextStage;
 use crate::cut_surface::CutSurfaceStages;
 use crate::depth_filter::DepthFilter;
 use crate::device::Device;
+use crate::far_rim::FarRim;
 use crate::leap::Leap;
 use crate::occlusion::Occlusion;
 use crate::silhouette::Silhouette;
@@ -26,6 +27,7 @@ pub(crate) struct Stages {
     pub leap: Leap,
     pub depth_filter: DepthFilter,
     pub occlusion: Occlusion,
+    pub far_rim: FarRim,
     pub surface: Surface,
     pub silhouette: Silhouette,
     pub context: ContextStage,
@@ -42,6 +44,7 @@ impl Stages {
             leap: Leap::new(device),
             depth_filter: DepthFilter::new(device),
             occlusion: Occlusion::new(device),
+            far_rim: FarRim::new(device),
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),
             context: ContextStage::new(device),

@@ -3,7 +3,8 @@
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
 use lumencut_core::pipeline::{CpuRenderer, EdgeSamples, Request};
-use lumencut_core::scene::{Scene, SharedVolume};
+use lumencut_core::scene::{LeveledTree, Scene, SharedVolume};
+use lumencut_core::settings::TreeShown;
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_gpu::renderer::GpuRenderer;
 #[cfg(target_arch = "wasm32")]
@@ -12,10 +13,17 @@ use lumencut_gpu::screen::Screen;
 use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, offsets, sub_views};
+use crate::wireframe::draw_wireframe;
 
 /// Environment variable with stages (comma-separated) that run on the CPU instead of the GPU, to find a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
+
+/// The tree whose walls the picture of a request shows as wires.
+fn wired<'a>(scene: &'a Scene<'_>, request: &Request<'_>) -> Option<&'a LeveledTree> {
+    let is_wanted = request.settings.tree == TreeShown::Wireframe && request.images.has(Image::Picture);
+    scene.tree.as_deref().filter(|_| is_wanted && scene.volume.is_some())
+}
 
 /// The result of drawing a view.
 #[cfg(target_arch = "wasm32")]
@@ -86,10 +94,12 @@ impl Backend {
             && request.settings.edge_samples > 1
             && request.images.has(Image::Picture)
             && EdgeSamples::has_edges(scene, request.settings);
+        let images = request.images.and(if has_edges { EdgeSamples::READS } else { ImageSet::of(&[]) });
+        let mut frame = self.render_once(method, scene, &Request { images, ..*request }).await?;
         if has_edges {
-            return self.render_edges(scene, request).await;
+            self.sample_edges(scene, request, &mut frame)?;
+            frame = frame.keeping(request.images);
         }
-        let mut frame = self.render_once(method, scene, request).await?;
         if has_samples {
             let mut mean = Mean::of(frame.image.len());
             for camera in &views {
@@ -104,33 +114,34 @@ impl Backend {
             }
             frame.image = mean.pixels();
         }
+        if let Some(tree) = wired(scene, request) {
+            draw_wireframe(&mut frame.image, request.camera, tree.tree(), request.settings);
+        }
         Ok((frame, self.unreported.take()))
     }
 
-    /// Renders a view with several samples in the pixels at and next to lines, which the CPU computes on every device.
-    async fn render_edges(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
-        let asked = Request { images: request.images.and(EdgeSamples::READS), ..*request };
-        let mut frame = self.render_once(Method::CutSurface, scene, &asked).await?;
-        if let (Some(tree), Some(volume)) = (&scene.tree, &scene.volume) {
-            let offsets = offsets(request.camera, request.settings.edge_samples);
-            let beside: Vec<_> = offsets.iter().copied().filter(|offset| *offset != [0.0; 2]).collect();
-            let cpu = match &mut self.computer {
-                Computer::Cpu(cpu) => cpu,
-                Computer::Gpu(gpu) => &mut gpu.edges,
-            };
-            let samples = cpu.edge_samples((tree, volume), request, &frame, &beside)?;
-            let pixels = || samples.pixels.iter().map(|pixel| *pixel as usize);
-            let mut mean = Mean::of(samples.pixels.len());
-            samples.colors.iter().for_each(|colors| mean.add(colors));
-            if beside.len() < offsets.len() {
-                mean.add(&pixels().map(|pixel| frame.image[pixel]).collect::<Vec<_>>());
-            }
-            for (pixel, color) in pixels().zip(mean.pixels()) {
-                frame.image[pixel] = color;
-            }
-            frame.count(&samples.timings);
+    /// Averages several samples in the pixels at and next to lines; the CPU computes them on every device.
+    fn sample_edges(&mut self, scene: &Scene<'_>, request: &Request<'_>, frame: &mut Frame) -> Result<()> {
+        let (Some(tree), Some(volume)) = (&scene.tree, &scene.volume) else { return Ok(()) };
+        let offsets = offsets(request.camera, request.settings.edge_samples);
+        // The middle of the pixel is the view itself.
+        let beside: Vec<_> = offsets.iter().copied().filter(|offset| *offset != [0.0; 2]).collect();
+        let cpu = match &mut self.computer {
+            Computer::Cpu(cpu) => cpu,
+            Computer::Gpu(gpu) => &mut gpu.edges,
+        };
+        let samples = cpu.edge_samples((tree, volume), request, frame, &beside)?;
+        let pixels: Vec<_> = samples.pixels.iter().map(|pixel| *pixel as usize).collect();
+        let mut mean = Mean::of(pixels.len());
+        samples.colors.iter().for_each(|colors| mean.add(colors));
+        if beside.len() < offsets.len() {
+            mean.add(&pixels.iter().map(|pixel| frame.image[*pixel]).collect::<Vec<_>>());
         }
-        Ok((frame.keeping(request.images), self.unreported.take()))
+        for (pixel, color) in pixels.iter().zip(mean.pixels()) {
+            frame.image[*pixel] = color;
+        }
+        frame.count(&samples.timings);
+        Ok(())
     }
 
     /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves
@@ -145,7 +156,7 @@ impl Backend {
         mut screen: Option<&mut Screen>,
     ) -> Result<Drawn> {
         let has_samples = request.settings.samples > 1 || request.settings.edge_samples > 1;
-        let is_alone = method == Method::CutSurface && !has_samples;
+        let is_alone = method == Method::CutSurface && !has_samples && wired(scene, request).is_none();
         if is_alone && let (Some(screen), Computer::Gpu(gpu)) = (screen.as_deref_mut(), &mut self.computer) {
             gpu.draw(scene, request, screen).await?;
             return Ok(Drawn::OnScreen);

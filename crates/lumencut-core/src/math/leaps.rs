@@ -7,4 +7,6 @@ pub const LINE_TO_THE_RIGHT: u32 = 4;
 /// With [`DOWNWARDS`]: the line is drawn in the pixel below, not in the pixel itself.
 pub const LINE_DOWNWARDS: u32 = 8;
 pub const LUMEN: u32 = 16;
+/// The pixel shows the wall of a vessel.
+pub const WALL: u32 = 32;
 pub const LEAPS: u32 = TO_THE_RIGHT | DOWNWARDS;

@@ -9,12 +9,12 @@ use crate::error::Result;
 use crate::frame::{Frame, Timing};
 use crate::geometry::{Curved, Geometry};
 use crate::math::lanes::{COLUMNS, PIXELS, ROWS};
-use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
+use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, TO_THE_RIGHT};
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::{LevelChoice, Settings, SilhouetteRule, SlabMode};
 use crate::stages::composite::{CompositeParameters, Layers, composite};
 use crate::stages::depth::{PLACES_ACROSS, entry_of_place};
-use crate::stages::focus::Shares;
+use crate::stages::focus::{LINES, SURFACE, Shares};
 use crate::stages::leap::Side;
 use crate::stages::silhouette::{SilhouetteParameters, silhouette_at};
 use crate::stages::surface::{SurfaceScene, surface};
@@ -37,7 +37,7 @@ pub struct EdgeSamples {
 
 impl EdgeSamples {
     /// The images of a frame that [`CpuRenderer::edge_samples`] reads.
-    pub const READS: ImageSet = ImageSet::of(&[Image::Leap, Image::Value, Image::Context]);
+    pub const READS: ImageSet = ImageSet::of(&[Image::Leap, Image::Focus, Image::Value, Image::Context]);
 
     /// Whether a picture of this scene has lines at depth jumps.
     pub fn has_edges(scene: &Scene, settings: &Settings) -> bool {
@@ -49,7 +49,7 @@ impl EdgeSamples {
 
 impl CpuRenderer {
     /// Samples the pixels at and next to the lines of a frame, which has the images [`EdgeSamples::READS`], at
-    /// `offsets` from their middle (mm to the right and upwards). Context and focus remain those of the middle,
+    /// `offsets` from their middle (mm to the right and upwards). Context and shares remain those of the middle,
     /// and the depth is not filtered. Fails as [`CpuRenderer::render`].
     pub fn edge_samples(
         &mut self,
@@ -67,8 +67,6 @@ impl CpuRenderer {
         let mut view = EdgeView { renderer: self, request, frame, pixels: Vec::new() };
         view.pixels = view.find_pixels()?;
         clock.lap(Stage::Silhouette);
-        let focus = view.shares(&view.pixels)?;
-        clock.lap(Stage::Focus);
         let samples = view.samples(offsets)?;
         clock.lap(Stage::Depth);
         let values = view.values(volume, offsets, &samples)?;
@@ -78,7 +76,7 @@ impl CpuRenderer {
         for (samples, values) in samples.iter().zip(&values) {
             let strength = leaps.strength(&view, samples, values);
             clock.lap(Stage::Silhouette);
-            colors.push(view.colors([values, &strength], &focus)?);
+            colors.push(view.colors([values, &strength])?);
             clock.lap(Stage::Composite);
         }
         Ok(EdgeSamples { pixels: view.pixels, colors, timings: clock.timings })
@@ -104,13 +102,12 @@ impl EdgeView<'_> {
         let size = camera.size();
         let lines = Lines { value: &self.frame.value, ..Lines::of(self.frame) };
         let strength = lines.strength(&self.work(size), settings, camera)?;
-        let covered = (0..).zip(&strength).filter(|(_, strength)| **strength > 0.0);
-        let covered: Vec<u32> = covered.map(|(pixel, _)| pixel).collect();
-        let shares = self.shares(&covered)?;
+        let share =
+            |pixel| self.frame.focus.get(pixel).map_or(1.0, |share: &Shares| share[SURFACE] * share[LINES]);
         let mut is_edge = vec![false; strength.len()];
-        for (pixel, [surface, lines]) in covered.iter().zip(&shares) {
-            if surface * lines > 0.0 {
-                let [i, j] = place(*pixel, size[0]);
+        for (pixel, strength) in strength.iter().enumerate() {
+            if *strength > 0.0 && share(pixel) > 0.0 {
+                let [i, j] = [pixel % size[0], pixel / size[0]];
                 for j in j.saturating_sub(1)..(j + 2).min(size[1]) {
                     is_edge[j * size[0]..][i.saturating_sub(1)..(i + 2).min(size[0])].fill(true);
                 }
@@ -119,22 +116,15 @@ impl EdgeView<'_> {
         Ok(by_squares(&is_edge, size))
     }
 
-    /// The shares of cut surface and silhouettes in the middle of pixels.
-    fn shares(&self, pixels: &[u32]) -> Result<Vec<Shares>> {
-        let Images { focus, .. } = self.run(&[Stage::Focus], &self.tiles(pixels, &[[0.0; 2]]))?;
-        let share = |n| focus.get(entry_of_place(n)).copied().unwrap_or([1.0; 2]);
-        Ok((0..pixels.len()).map(share).collect())
-    }
-
     /// The cut surface at all offsets, for one offset after the other.
     fn samples(&self, offsets: &[[f64; 2]]) -> Result<Vec<Vec<Sample>>> {
         let is_own = self.request.settings.level_choice == LevelChoice::Own;
         let stages = if is_own { &[Stage::Depth][..] } else { &[Stage::Distance, Stage::Depth] };
-        let Images { unfiltered_depth: depth, sheet, .. } =
+        let Images { unfiltered_depth: depth, vessel, sheet, .. } =
             self.run(stages, &self.tiles(&self.pixels, offsets))?;
         let sample = |n: usize, k: usize| {
             let at = entry_of_place(k * offsets.len() + n);
-            Sample { depth: depth[at], side: Side::new(depth[at], sheet[at]) }
+            Sample { depth: depth[at], side: Side::new(depth[at], vessel[at], sheet[at]) }
         };
         let of_offset = |n| (0..self.pixels.len()).map(|k| sample(n, k)).collect();
         Ok((0..offsets.len()).map(of_offset).collect())
@@ -205,15 +195,16 @@ impl EdgeView<'_> {
         Ok(values)
     }
 
-    fn colors(&self, [value, strength]: [&[f32]; 2], focus: &[Shares]) -> Result<Vec<[u8; 4]>> {
-        let context: Vec<_> = match &self.frame.context[..] {
-            [] => Vec::new(),
-            context => self.pixels.iter().map(|pixel| premultiplied(context[*pixel as usize])).collect(),
-        };
+    fn colors(&self, [value, strength]: [&[f32]; 2]) -> Result<Vec<[u8; 4]>> {
+        let Frame { focus, context, .. } = self.frame;
+        let pixels = || self.pixels.iter().map(|pixel| *pixel as usize);
+        let focus: Vec<_> = pixels().filter_map(|pixel| focus.get(pixel).copied()).collect();
+        let context: Vec<_> =
+            pixels().filter_map(|pixel| context.get(pixel).copied().map(premultiplied)).collect();
         let layers = Layers {
             value,
             strength: Some(strength),
-            focus: Some(focus),
+            focus: Some(&focus[..]).filter(|focus| !focus.is_empty()),
             context: Some(&context[..]).filter(|context| !context.is_empty()),
         };
         let mut colors = vec![[0; 4]; self.pixels.len()];
@@ -252,7 +243,7 @@ impl EdgeLeaps {
         let (size, side) = (camera.size(), camera.pixel_spacing() as f32);
         for ((pixel, sample), value) in view.pixels.iter().zip(samples).zip(values) {
             let ([i, j], at) = (place(*pixel, size[0]), *pixel as usize);
-            let mut bits = if sample.side.is_lumen { LUMEN } else { 0 };
+            let mut bits = sample.side.shown();
             if i + 1 < size[0] {
                 bits |= self.leap_to(samples, [at, at + 1], [side, 0.0]) & (TO_THE_RIGHT | LINE_TO_THE_RIGHT);
             }

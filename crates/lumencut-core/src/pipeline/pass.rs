@@ -15,6 +15,7 @@ use crate::stages::context::{SurfaceImages, Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, DepthImages, Sheet, depth};
 use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
+use crate::stages::far_rim::{FarRimParameters, far_rim};
 use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::occlusion::{OcclusionParameters, occlusion};
@@ -58,7 +59,8 @@ impl CutSurfacePass<'_> {
             Stage::Leap => {
                 images.leap = vec![0; pixels];
                 let parameters = LeapParameters::new(self.surface.camera());
-                leap(work, &parameters, &images.unfiltered_depth, &images.sheet, &mut images.leap)
+                let Images { unfiltered_depth, vessel, sheet, leap: leaps, .. } = images;
+                leap(work, &parameters, (unfiltered_depth, vessel), sheet, leaps)
             }
             Stage::DepthFilter => self.depth_filter(images),
             Stage::Focus => self.focus(images),
@@ -66,6 +68,17 @@ impl CutSurfacePass<'_> {
                 let Images { unfiltered_depth, depth, focus, .. } = images;
                 let depth = if depth.is_empty() { unfiltered_depth } else { depth };
                 occlusion(work, &OcclusionParameters::new(self.surface.camera()), depth, focus)
+            }
+            Stage::FarRim => {
+                let Images { unfiltered_depth, depth, leap, focus, .. } = images;
+                let depth = if depth.is_empty() { unfiltered_depth } else { depth };
+                far_rim(
+                    work,
+                    &FarRimParameters::new(self.settings, self.surface.camera()),
+                    leap,
+                    depth,
+                    focus,
+                )
             }
             Stage::Levels
             | Stage::Projection
@@ -83,8 +96,9 @@ impl CutSurfacePass<'_> {
             return Ok(());
         };
         images.focus = vec![[0.0; 4]; self.work.pixels()];
-        // The focus image needs exact shares in every pixel; silhouettes need them only near depth jumps.
-        let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
+        // The focus image alone needs exact shares in every pixel; silhouettes need them only near depth jumps.
+        let is_alone = self.wanted.has(Image::Focus) && !self.wanted.has(Image::Leap);
+        let is_whole = is_alone || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
         focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
     }
@@ -133,7 +147,8 @@ impl LookPass<'_> {
             | Stage::Leap
             | Stage::DepthFilter
             | Stage::Focus
-            | Stage::Occlusion => Ok(()),
+            | Stage::Occlusion
+            | Stage::FarRim => Ok(()),
         }
     }
 

@@ -52,7 +52,8 @@ impl Found {
         let mut leaps = Vec::new();
         if Stage::of_cut_surface(settings, images).contains(&Stage::Leap) {
             leaps = vec![0; self.depth.len()];
-            leap(&work(request), &LeapParameters::new(camera), &self.depth, &self.sheet, &mut leaps)?;
+            let places = (&self.depth[..], &self.vessel[..]);
+            leap(&work(request), &LeapParameters::new(camera), places, &self.sheet, &mut leaps)?;
         }
         let geometry = Geometry::Orthographic { camera: *camera, depth: self.depth };
         Ok(Frame { vessel: self.vessel, leap: leaps, folded: self.folded, ..Frame::of(geometry) })

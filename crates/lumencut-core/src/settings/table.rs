@@ -4,7 +4,7 @@
 use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
 use super::focus::Focus;
-use super::rules::{DistanceRule, LevelChoice, SilhouetteRule};
+use super::rules::{DistanceRule, LevelChoice, SilhouetteRule, TreeShown};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
@@ -114,6 +114,11 @@ settings! {
         /// vessels they only mark borders of zones.
         silhouette_reach: Option<f64> = Some(10.0), range(0.0, 1e6, "mm");
 
+        /// Darken the farther side of a depth jump where its silhouette has faded out (number, 0 to 1).
+        ///
+        /// Lumen and wall keep their grey. Needs silhouettes with the rule `leap` and `silhouette_reach`.
+        far_rim: f64 = 0.3, range(0.0, 1.0, "of its brightness");
+
         /// Darken the cut where it lies deeper than its surroundings (number, 0 to 1); lumen and wall keep their grey.
         ///
         /// 0.6 suits pictures without silhouettes. Tissue values then look up to that much darker.
@@ -123,6 +128,11 @@ settings! {
         ///
         /// Red, green and blue.
         silhouette_color: [u8; 3] = [255, 220, 0];
+
+        /// Vessel walls over the picture (name): `hidden`, or `wireframe` for rings across and lines along the vessels.
+        ///
+        /// Wires show the radii of the centerlines, `unknown_radius` where there is none; only the picture has them.
+        tree: TreeShown = TreeShown::Hidden;
 
         /// Colour of pixels that show nothing else.
         ///
@@ -222,6 +232,7 @@ impl Settings {
             silhouette_rule: SilhouetteRule::Gradient,
             silhouette_reach: None,
             edge_samples: 1,
+            far_rim: 0.0,
             ..Self::default()
         }
     }

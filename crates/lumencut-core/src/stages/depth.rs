@@ -168,11 +168,14 @@ impl Search for LowestKeySearch<'_> {
 
 /// Per pixel: the change of depth to the right and upwards (mm per mm), the vessel's radius (mm, negative outside the
 /// lumen), and the gap. This is the distance along the vessel between the two blended points (mm),
-/// [`crate::math::lanes::FAR`] between different vessels, or [`CHOSEN_GAP`] if a chosen vessel takes precedence.
+/// [`crate::math::lanes::FAR`] between different vessels, [`WALL_GAP`] minus the position along the
+/// vessel in lumen and wall, or [`CHOSEN_GAP`] if a chosen vessel takes precedence there.
 pub type Sheet = [f32; 4];
 
 /// The gap in a sheet if a chosen vessel takes precedence at the pixel.
 pub const CHOSEN_GAP: f32 = -1.0;
+/// The gap in a sheet in lumen and wall, minus the position along the vessel (mm).
+pub const WALL_GAP: f32 = -2.0;
 
 /// The images that the stage writes. `sheet` and `blend` are empty if nothing reads them.
 #[derive(Debug)]

@@ -5,6 +5,7 @@
 // import math/whole_curve
 
 const CHOSEN_GAP: f32 = -1.0;
+const WALL_GAP: f32 = -2.0;
 
 override HAS_SHEET: bool = false;
 override HAS_BLEND: bool = false;
@@ -102,6 +103,8 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let counted = u32(vessel) + 1u;
                     if found.is_first && (finer_vessel[n][c] == 0u || details[n][c].w == CHOSEN_GAP) {
                         details[n][c].w = CHOSEN_GAP;
+                    } else if found.beyond_wall <= 0.0 && (finer_vessel[n][c] == 0u || details[n][c].w < 0.0) {
+                        details[n][c].w = WALL_GAP - found.arc_length;
                     } else if finer_vessel[n][c] != 0u {
                         let apart = abs(found.arc_length - finer_arc_length[n][c]);
                         details[n][c].w = select(FAR, apart, counted == finer_vessel[n][c]);
@@ -194,7 +197,8 @@ fn blend_own(place: u32, decision: Decision, z: f32, winner: u32, q: vec2f) {
     vessel_image[place] = decision.vessel;
     if HAS_SHEET {
         let slope = (1.0 - weight) * fine_piece.slope + weight * coarse_piece.slope;
-        let gap = select(abs(coarse_piece.along - fine_piece.along), CHOSEN_GAP, decision.is_first);
+        let outside = select(WALL_GAP - decision.arc_length, abs(coarse_piece.along - fine_piece.along), decision.beyond_wall > 0.0);
+        let gap = select(outside, CHOSEN_GAP, decision.is_first);
         details_image[place] = vec4f(slope, decision.sheet_radius, gap);
     }
     if HAS_BLEND {

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
 use super::depth::CutSurface;
-use super::silhouette::FARTHEST_LEAP;
+use super::far_rim::WIDEST as FARTHEST_LEAP;
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
@@ -137,8 +137,8 @@ pub type Shares = [f32; 4];
 pub const ALL_SHOWN: Shares = [1.0, 1.0, 1.0, 0.0];
 
 /// Indices into [`Shares`].
-const SURFACE: usize = 0;
-const LINES: usize = 1;
+pub(crate) const SURFACE: usize = 0;
+pub(crate) const LINES: usize = 1;
 const AROUND: usize = 2;
 pub(super) const SHADE: usize = 3;
 

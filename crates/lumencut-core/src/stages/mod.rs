@@ -16,6 +16,8 @@ pub mod depth_filter;
 #[doc(hidden)]
 pub mod distance;
 #[doc(hidden)]
+pub mod far_rim;
+#[doc(hidden)]
 pub mod focus;
 #[doc(hidden)]
 pub mod leap;

@@ -145,6 +145,8 @@ pub enum Stage {
     Focus,
     /// Computes how much the cut surface is darkened where it lies deeper than its surroundings.
     Occlusion,
+    /// Darkens the farther side of depth jumps whose lines have faded out.
+    FarRim,
     /// Samples the volume at the cut surface.
     Surface,
     /// Draws lines where the depth of the cut surface jumps.
@@ -161,7 +163,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
@@ -170,6 +172,7 @@ impl Stage {
         Self::DepthFilter,
         Self::Focus,
         Self::Occlusion,
+        Self::FarRim,
         Self::Surface,
         Self::Silhouette,
         Self::Blocks,
@@ -189,6 +192,7 @@ impl Stage {
             Self::DepthFilter => "depth_filter",
             Self::Focus => "focus",
             Self::Occlusion => "occlusion",
+            Self::FarRim => "far_rim",
             Self::Surface => "surface",
             Self::Silhouette => "silhouette",
             Self::Blocks => "blocks",
@@ -204,7 +208,7 @@ impl Stage {
             Self::Levels | Self::Projection | Self::Blocks => 0,
             Self::Distance | Self::Occlusion => 8,
             Self::Depth => 12,
-            Self::Leap | Self::Focus | Self::Surface => 4,
+            Self::Leap | Self::Focus | Self::FarRim | Self::Surface => 4,
             Self::DepthFilter | Self::Silhouette | Self::Body => 2,
             Self::Context => 14,
             Self::Composite => 10,
@@ -217,9 +221,10 @@ impl Stage {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
             Self::Focus => &[Image::Leap],
             Self::Depth => &[Image::Distance],
-            Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
+            Self::Leap => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Occlusion => &[Image::UnfilteredDepth, Image::Depth, Image::Focus],
+            Self::FarRim => &[Image::UnfilteredDepth, Image::Depth, Image::Leap, Image::Focus],
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Focus, Image::Value],
@@ -236,7 +241,7 @@ impl Stage {
             Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
-            Self::Focus | Self::Occlusion => &[Image::Focus],
+            Self::Focus | Self::Occlusion | Self::FarRim => &[Image::Focus],
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
             Self::Context => &[Image::Start, Image::Gathered],
@@ -260,6 +265,7 @@ impl Stage {
             (Self::DepthFilter, settings.depth_filter),
             (Self::Focus, has_focus || ((has_reach || settings.occlusion > 0.0) && draws)),
             (Self::Occlusion, settings.occlusion > 0.0 && draws),
+            (Self::FarRim, settings.far_rim > 0.0 && draws_leaps && has_leaps && has_reach && draws),
         ];
         needed(&stages)
     }
@@ -268,7 +274,13 @@ impl Stage {
     pub const fn is_of_cut_surface(self) -> bool {
         matches!(
             self,
-            Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus | Self::Occlusion
+            Self::Distance
+                | Self::Depth
+                | Self::Leap
+                | Self::DepthFilter
+                | Self::Focus
+                | Self::Occlusion
+                | Self::FarRim
         )
     }
 

@@ -91,8 +91,8 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/transfer": transfer::INVISIBLE;
         "math/walls": walls::MAX_LEAN;
         "stages/context": context::IN_FRONT;
-        "stages/depth": depth::CHOSEN_GAP;
-        "stages/leap": leap::SMALLEST_LEAP;
+        "stages/depth": depth::CHOSEN_GAP, depth::WALL_GAP;
+        "stages/leap": leap::SMALLEST_LEAP, leap::ALONG_VIEW, leap::MOST_DIAMETERS;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;
         "math/cubic": cubic::TINY;

@@ -10,6 +10,7 @@ use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::body::BodyParameters;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
+use lumencut_core::stages::far_rim::FarRimParameters;
 use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::leap::LeapParameters;
 use lumencut_core::stages::occlusion::{Blur, OcclusionParameters};
@@ -98,6 +99,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("stages/body", BodyParameters { size, first, per_pixel, per_line, padding }),
         host!("stages/occlusion", OcclusionParameters { blurs }),
         host!("stages/occlusion", Blur { weights, side, reach, padding }),
+        host!("stages/far_rim", FarRimParameters { width, strength }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
         host!(
             "math/sampling",

@@ -4,7 +4,7 @@ use lumencut_core::math::leaps::{DOWNWARDS, LUMEN, TO_THE_RIGHT};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};
 use lumencut_core::scene::LeveledTree;
 use lumencut_core::settings::{LevelChoice, Settings};
-use lumencut_core::stages::depth::Sheet;
+use lumencut_core::stages::depth::{Sheet, WALL_GAP};
 use lumencut_core::stages::leap::{LeapParameters, leap};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::VesselTree;
@@ -24,12 +24,18 @@ use crate::levels::DeviceLevels;
 use crate::recording::Recording;
 
 /// Depth jumps found on the GPU and on the CPU. All numbers are multiples of a quarter, so no sum is rounded.
-fn both(device: &Device, size: [usize; 2], depth: &[f32], sheet: &[Sheet]) -> [Vec<u32>; 2] {
+fn both(
+    device: &Device,
+    size: [usize; 2],
+    (depth, vessel): (&[f32], &[i32]),
+    sheet: &[Sheet],
+) -> [Vec<u32>; 2] {
     let camera = front(size, 0.5);
     let mut expected = vec![0; depth.len()];
-    leap(&on_cpu(&camera), &LeapParameters::new(&camera), depth, sheet, &mut expected).unwrap();
+    leap(&on_cpu(&camera), &LeapParameters::new(&camera), (depth, vessel), sheet, &mut expected).unwrap();
     let (stage, images) = (Leap::new(device), Images::new(device, size).unwrap());
     device.write(&images.sheet, sheet);
+    device.write(&images.vessel, vessel);
     device.write(&images.leap, &vec![9u32; depth.len()]);
     let mut recording = Recording::new(device);
     stage.write(device, &camera);
@@ -46,9 +52,13 @@ fn leaps_are_those_of_the_cpu_to_the_bit() {
         let pixels = size[0] * size[1];
         let mut quarters = |most: f32| (random.between(-most, most) * 4.0).round() / 4.0;
         let depth: Vec<f32> = (0..pixels).map(|_| quarters(6.0)).collect();
-        let sheet: Vec<Sheet> =
-            (0..pixels).map(|_| [quarters(8.0), quarters(8.0), quarters(2.0), 0.0]).collect();
-        let [found, expected] = both(device, size, &depth, &sheet);
+        let vessel: Vec<i32> = (0..pixels).map(|_| i32::from(quarters(1.0) > 0.5)).collect();
+        // Three of four pixels are lumen with a place along the vessel, so folds are tried too.
+        let mut gap = || if quarters(1.0) > 0.5 { 0.0 } else { WALL_GAP - 4.0 - quarters(4.0) };
+        let gaps: Vec<f32> = (0..pixels).map(|_| gap()).collect();
+        let of_gap = |gap: &f32| [quarters(8.0), quarters(8.0), quarters(2.0), *gap];
+        let sheet: Vec<Sheet> = gaps.iter().map(of_gap).collect();
+        let [found, expected] = both(device, size, (&depth, &vessel), &sheet);
         assert_eq!(found, expected, "{size:?}");
         if pixels > 100 {
             let bits =
@@ -64,7 +74,8 @@ fn a_steep_surface_has_no_leap_at_the_borders_of_the_image() {
     for size in SIZES {
         let at = |p: usize| ((p % size[0]) as f32, (p / size[0]) as f32);
         let depth: Vec<f32> = (0..size[0] * size[1]).map(|p| 20.0 * at(p).0 - 30.0 * at(p).1).collect();
-        let [found, expected] = both(device, size, &depth, &vec![[40.0, 60.0, 1.0, 0.0]; depth.len()]);
+        let [found, expected] =
+            both(device, size, (&depth, &vec![0; depth.len()]), &vec![[40.0, 60.0, 1.0, 0.0]; depth.len()]);
         assert_eq!(found, expected, "{size:?}");
         assert!(found.iter().all(|leap| *leap == LUMEN), "{size:?}");
     }

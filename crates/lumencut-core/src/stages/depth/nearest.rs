@@ -2,7 +2,7 @@
 
 use super::blend::LevelBlend;
 use super::blended::Blended;
-use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface};
+use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface, WALL_GAP};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
 use crate::math::pieces::Envelope;
@@ -84,9 +84,12 @@ impl BlendedSheets {
                     ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
                 *radius = if is_outside_lumen { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];
-                let is_first = found.is_first[l] & ((vessel < 0) | (*gap < 0.0));
+                let is_first = found.is_first[l] & ((vessel < 0) | (*gap == CHOSEN_GAP));
+                let is_wall = (found.beyond_wall[l] <= 0.0) & ((vessel < 0) | (*gap < 0.0));
                 if is_first {
                     *gap = CHOSEN_GAP;
+                } else if is_wall {
+                    *gap = WALL_GAP - found.arc_length[l];
                 } else if vessel >= 0 {
                     let same = vessel == found.vessel[l];
                     *gap = if same { (found.arc_length[l] - s).abs() } else { FAR };

@@ -2,7 +2,7 @@
 
 use super::blend::LevelBlend;
 use super::blended::Blended;
-use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};
+use super::{CHOSEN_GAP, CutSurface, Search, TileSurface, WALL_GAP};
 use crate::math::decision::Decision;
 use crate::math::lanes::{PART_PIXELS, PIXELS, places};
 use crate::math::own_pieces::NearestPieces;
@@ -53,7 +53,12 @@ impl CutSurface<'_> {
         let mut sheet = [[0.0; 4]; PIXELS];
         if SHEET {
             for l in 0..PIXELS {
-                let gap = if decision.is_first[l] { CHOSEN_GAP } else { sum.gap(l) };
+                let outside = if decision.beyond_wall[l] > 0.0 {
+                    sum.gap(l)
+                } else {
+                    WALL_GAP - decision.arc_length[l]
+                };
+                let gap = if decision.is_first[l] { CHOSEN_GAP } else { outside };
                 sheet[l] = [sum.slope[0][l], sum.slope[1][l], decision.sheet_radius(l), gap];
             }
         }
