@@ -57,6 +57,7 @@ IDLE = [
     ("--no-silhouettes", "--silhouette-reach 5", "without silhouettes", {"silhouette_reach": 9.0}),
     ("--no-silhouettes", "--silhouette-color ff0000", "without silhouettes", {"silhouette_color": (9, 9, 9)}),
     ("", "--silhouette-slope 2", "with --silhouette-rule leap", {"silhouette_slope": 0.1}),
+    ("--no-silhouettes", "--far-rim 0.5", "without silhouettes", {"far_rim": 0.0}),
     ("--no-silhouettes", "--edge-samples 2", "without silhouettes", {"edge_samples": 1}),
     ("--paper", "--edge-samples 2", "with --silhouette-rule gradient", {"edge_samples": 2}),
     ("--samples 2", "--edge-samples 2", "with --samples", {"edge_samples": 1}),

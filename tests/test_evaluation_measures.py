@@ -242,6 +242,13 @@ def test_lines_at_leaps_and_elsewhere(lone, camera):
     found = numbers(lone, replace(shown, plain_depth=depth, strength=drawn))
     assert found["leaps"] == 161
     assert found["leaps_with_line_percent"] == pytest.approx(100 * 82 / 161)
+    assert (found["leaps_with_rim_percent"], found["leaps_with_either_percent"]) == pytest.approx((0, 100 * 82 / 161))
+    rim = np.zeros(depth.shape)
+    rim[121:, 81] = 0.2
+    rim[:, 83] = 0.3
+    rimmed = numbers(lone, replace(shown, plain_depth=depth, strength=drawn, rim=rim))
+    assert rimmed["leaps_with_rim_percent"] == pytest.approx(100 * 41 / 161)
+    assert rimmed["leaps_with_either_percent"] == pytest.approx(100 * 123 / 161)
     # Lines of 161 pixels of 0.5 mm in all columns except two at the jump and one on each side.
     assert found["lines_elsewhere_mm_per_mm2"] == pytest.approx(1 / (157 * 0.5))
     # A jump must be higher than the vessel is wide.

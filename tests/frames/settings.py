@@ -104,6 +104,7 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
     yield from each("silhouette_reach", (None, 0, 1, 5, 40))
     yield from each("silhouette_reach", (8,), silhouette_rule="gradient")
+    yield from each("far_rim", (0, 1))
     yield from each("silhouette_color", ((255, 0, 128), (0, 0, 0)))
     slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
     yield "silhouettes on a filter-free surface", slope

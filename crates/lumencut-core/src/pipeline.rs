@@ -143,7 +143,9 @@ impl CpuRenderer {
     /// The details of the cut surface; ignores the images of the request. Fails as [`CpuRenderer::render`].
     pub fn details(&mut self, tree: &LeveledTree, request: &Request) -> Result<SurfaceDetails> {
         request.settings.check()?;
-        let settings = &*request.settings.for_vessels(tree.tree().vessels().len())?;
+        let settings = request.settings.for_vessels(tree.tree().vessels().len())?.into_owned();
+        // The share that darkens a pixel is then that of the far rim alone.
+        let settings = &Settings { occlusion: 0.0, ..settings };
         self.prepare(tree, settings);
         self.project(request.camera, settings);
         SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))

@@ -235,7 +235,7 @@ fn the_leaps_of_a_view_are_those_of_its_depth_and_sheet() {
         for (size, spacing) in [([1, 1], 1.0), ([1, 60], 1.5), ([60, 1], 1.5), ([60, 50], 1.5)] {
             let camera = view([1.0, 0.3, 0.2], size, spacing);
             let settings = Settings { level_choice, depth_filter: false, ..Settings::default() };
-            let SurfaceDetails { sheet, leap: found, strength } = details(&scene, &camera, &settings);
+            let SurfaceDetails { sheet, leap: found, strength, .. } = details(&scene, &camera, &settings);
             let depth = by_hierarchy(&scene, &camera, &settings);
             let mut expected = vec![9; found.len()];
             let work = Work { size, isa: Isa::widest(), stop: &|| false, progress: None };

@@ -67,7 +67,7 @@ impl Renderer {
         py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())
     }
 
-    /// Details of a cut surface, computed on the CPU: the silhouette strength, and the arc length (mm) between the two positions
+    /// Details of a cut surface, computed on the CPU: the strengths of silhouettes and far rim, and the arc length (mm) between the two positions
     /// that each pixel blends; infinite between two vessels.
     #[allow(clippy::needless_pass_by_value)]
     fn details<'py>(
@@ -86,8 +86,9 @@ impl Renderer {
         let [width, height] = camera.size();
         let gap =
             details.sheet.iter().map(|sheet| if sheet[3] < FAR { sheet[3].max(0.0) } else { f32::INFINITY });
-        let strength = settings.silhouettes.then_some(("strength", details.strength));
-        for (name, numbers) in [("sheet_gap", gap.collect())].into_iter().chain(strength) {
+        let lines = [("strength", details.strength), ("rim", details.rim)];
+        let lines = lines.into_iter().filter(|(_, numbers)| settings.silhouettes && !numbers.is_empty());
+        for (name, numbers) in [("sheet_gap", gap.collect())].into_iter().chain(lines) {
             all.set_item(name, PyArray1::from_vec(py, numbers).reshape([height, width])?)?;
         }
         Ok(all)

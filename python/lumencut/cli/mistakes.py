@@ -25,7 +25,7 @@ _CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper", "l
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
 _NOTHING = (None, False, 0, ())
 _VESSELS = ("vessel", "exclude", "zoom_to")
-_PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", "edge_samples", *_CONTEXT)
+_PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", "edge_samples", "far_rim", *_CONTEXT)
 
 
 def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
@@ -125,13 +125,15 @@ def _idle_rules(settings: Settings) -> Iterator[_Idle]:
         yield ("others_strength",), "without chosen vessels", "give --focus-vessels"
     if not (settings.silhouettes or settings.focus_vessels):
         names = ("silhouette_rule", "silhouette_slope", "silhouette_reach", "silhouette_color")
-        yield (*names, "edge_samples"), "without silhouettes", "give --silhouettes"
+        yield (*names, "edge_samples", "far_rim"), "without silhouettes", "give --silhouettes"
     if settings.silhouette_rule == "leap":
         why = "with --silhouette-rule leap, which has no slope"
         yield ("silhouette_slope",), why, "give --silhouette-rule gradient"
     else:
         why = "with --silhouette-rule gradient, which has no lines at jumps"
-        yield ("edge_samples",), why, "give --silhouette-rule leap"
+        yield ("edge_samples", "far_rim"), why, "give --silhouette-rule leap"
+    if settings.silhouette_reach is None:
+        yield ("far_rim",), "without --silhouette-reach: no line fades out", "give --silhouette-reach"
     if settings.samples > 1:
         yield ("edge_samples",), "with --samples, which count everywhere", "give --samples 1"
     if not settings.depth_filter:

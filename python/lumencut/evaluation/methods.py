@@ -37,8 +37,8 @@ class Method:
     picture : function of Renderer, Camera and Settings
         Returns a frame with a picture; needs a volume.
     details : function of Renderer, Camera and Settings
-        ``"sheet_gap"``, the arc length between the points that a pixel blends (mm), and ``"strength"`` of the
-        silhouettes (0 to 1), if the method has them.
+        ``"sheet_gap"``, the arc length between the points that a pixel blends (mm), ``"strength"`` of the
+        silhouettes and ``"rim"`` beside them (0 to 1), if the method has them.
     is_filtered : bool, default True
         Whether the depth filter of the settings changes the frame.
     has_image_per_vessel : bool, default False
@@ -154,5 +154,6 @@ def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Setti
         value=frame.value if frame.has("value") else None,
         plain_depth=plain.depth,
         strength=details.get("strength"),
+        rim=details.get("rim"),
         sheet_gap=details.get("sheet_gap"),
     )

@@ -28,6 +28,8 @@ class Shown:
         Depth before any filter.
     strength : numpy.ndarray or None
         Strength of the silhouettes, 0 to 1.
+    rim : numpy.ndarray or None
+        How much the far rim darkens each pixel, 0 to 1.
     sheet_gap : numpy.ndarray or None
         Arc length between the sheets of a vessel that the pixel blends (mm).
     """
@@ -40,4 +42,5 @@ class Shown:
     value: npt.NDArray[np.floating] | None = None
     plain_depth: npt.NDArray[np.floating] | None = None
     strength: npt.NDArray[np.floating] | None = None
+    rim: npt.NDArray[np.floating] | None = None
     sheet_gap: npt.NDArray[np.floating] | None = None

@@ -10,6 +10,7 @@ from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
 _MIN_LINE_STRENGTH = 0.25
+_MIN_RIM_STRENGTH = 0.1
 #: Smallest difference of depth that counts as a jump, for vessels with less than half this radius.
 _MIN_LEAP_MM = 2.0
 
@@ -17,12 +18,12 @@ _MIN_LEAP_MM = 2.0
 def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
     """Count the jumps in depth and those with a line, and add up the length of lines elsewhere (mm)."""
     if shown.strength is None or shown.plain_depth is None:
-        return dict.fromkeys(("leaps", "drawn", "stray", "area"))
+        return dict.fromkeys(("leaps", "drawn", "rimmed", "marked", "stray", "area"))
     side = truth.seen.grid.side
     across, down = leaps(shown.plain_depth, leap_bounds(truth, shown))
     line = shown.strength > _MIN_LINE_STRENGTH
-    near = _grown(line)
-    drawn = counted(across & (near[:, :-1] | near[:, 1:])) + counted(down & (near[:-1] | near[1:]))
+    rim = np.zeros_like(line) if shown.rim is None else shown.rim > _MIN_RIM_STRENGTH
+    drawn, rimmed, marked = (_leaps_near(mark, across, down) for mark in (line, rim, line | rim))
     at_leap = np.zeros(line.shape, bool)
     for first, second, leap in ((at_leap[:, :-1], at_leap[:, 1:], across), (at_leap[:-1], at_leap[1:], down)):
         first |= leap
@@ -32,6 +33,8 @@ def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
     return {
         "leaps": counted(across) + counted(down),
         "drawn": drawn,
+        "rimmed": rimmed,
+        "marked": marked,
         "stray": counted(line & elsewhere) * side,
         "area": counted(elsewhere) * side**2,
     }
@@ -41,6 +44,8 @@ def silhouette_columns(amounts: Amounts) -> Columns:
     """Return the numbers of the table."""
     return {
         "leaps_with_line_percent": percent(amounts["drawn"], amounts["leaps"]),
+        "leaps_with_rim_percent": percent(amounts["rimmed"], amounts["leaps"]),
+        "leaps_with_either_percent": percent(amounts["marked"], amounts["leaps"]),
         "lines_elsewhere_mm_per_mm2": ratio(amounts["stray"], amounts["area"]),
         "leaps": amounts["leaps"],
     }
@@ -87,6 +92,14 @@ def leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64])
         leap[:, 1:-1] = np.abs(right - (2 * left - before)) > least
         leap[:, 1:-1] &= np.abs(left - (2 * right - after)) > least
     return leap
+
+
+def _leaps_near(
+    mark: npt.NDArray[np.bool_], across: npt.NDArray[np.bool_], down: npt.NDArray[np.bool_]
+) -> int:
+    """Count the jumps with a mark within a pixel."""
+    near = _grown(mark)
+    return counted(across & (near[:, :-1] | near[:, 1:])) + counted(down & (near[:-1] | near[1:]))
 
 
 def _grown(pixels: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:

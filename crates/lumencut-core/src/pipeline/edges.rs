@@ -67,6 +67,9 @@ impl CpuRenderer {
         let mut view = EdgeView { renderer: self, request, frame, pixels: Vec::new() };
         view.pixels = view.find_pixels()?;
         clock.lap(Stage::Silhouette);
+        if view.pixels.is_empty() {
+            return Ok(EdgeSamples { pixels: Vec::new(), colors: Vec::new(), timings: clock.timings });
+        }
         let samples = view.samples(offsets)?;
         clock.lap(Stage::Depth);
         let values = view.values(volume, offsets, &samples)?;
@@ -148,9 +151,6 @@ impl EdgeView<'_> {
     /// Runs stages of the cut surface at places of the view.
     fn run(&self, stages: &[Stage], tiles: &[[[f32; 2]; PIXELS]]) -> Result<Images> {
         let mut images = Images::default();
-        if tiles.is_empty() {
-            return Ok(images);
-        }
         let pass = self.renderer.pass(self.request);
         let pass = CutSurfacePass {
             work: self.work([PLACES_ACROSS * COLUMNS, tiles.len() / PLACES_ACROSS * ROWS]),
@@ -171,9 +171,6 @@ impl EdgeView<'_> {
         offsets: &[[f64; 2]],
         samples: &[Vec<Sample>],
     ) -> Result<Vec<Vec<f32>>> {
-        if self.pixels.is_empty() {
-            return Ok(vec![Vec::new(); offsets.len()]);
-        }
         let (camera, slab) = (self.request.camera, self.request.settings.slab);
         let searches = slab.filter(|slab| slab.mode != SlabMode::Mean);
         let blocks = searches.map(|_| volume.blocks(self.request.stop)).transpose()?;

@@ -19,7 +19,7 @@ use crate::stages::far_rim::{FarRimParameters, far_rim};
 use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::occlusion::{OcclusionParameters, occlusion};
-use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
+use crate::stages::silhouette::{FARTHEST_LEAP, SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::{filled, resize};
@@ -100,7 +100,9 @@ impl CutSurfacePass<'_> {
         let is_alone = self.wanted.has(Image::Focus) && !self.wanted.has(Image::Leap);
         let is_whole = is_alone || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
-        focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
+        let rim = FarRimParameters::new(self.settings, self.surface.camera());
+        let reach = if rim.strength > 0.0 { rim.reach() } else { FARTHEST_LEAP };
+        focus(&self.work, &self.surface, &parameters, (leap, reach), &mut images.focus)
     }
 
     fn depth_filter(&self, images: &mut Images) -> Result<()> {
@@ -285,6 +287,8 @@ pub struct SurfaceDetails {
     pub leap: Vec<u32>,
     /// The strength of the silhouettes as drawn, 0 to 1: reach and focus reduce it.
     pub strength: Vec<f32>,
+    /// How much the far rim darkens each pixel, 0 to 1.
+    pub rim: Vec<f32>,
 }
 
 impl SurfaceDetails {
@@ -302,6 +306,7 @@ impl SurfaceDetails {
         for (strength, [surface, line, ..]) in strength.iter_mut().zip(&focus) {
             *strength *= surface * line;
         }
-        Ok(Self { sheet, leap, strength })
+        let rim = focus.iter().map(|[_, _, _, rim]| *rim).collect();
+        Ok(Self { sheet, leap, strength, rim })
     }
 }

@@ -9,7 +9,7 @@ use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
 use crate::math::lanes::larger;
-use crate::math::leaps::{DOWNWARDS, LUMEN, TO_THE_RIGHT, WALL};
+use crate::math::leaps::{DOWNWARDS, LEAPS, LUMEN, TO_THE_RIGHT, WALL};
 use crate::settings::Settings;
 
 /// Width of the rim (mm).
@@ -17,7 +17,7 @@ const WIDTH: f64 = 1.5;
 /// Smallest width of the rim (pixels); a narrower rim would look like a hair.
 const NARROWEST: f64 = 2.5;
 /// Largest width of the rim (pixels), also in the closest view.
-pub(super) const WIDEST: usize = 8;
+const WIDEST: f64 = 8.0;
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
@@ -30,7 +30,7 @@ pub struct FarRimParameters {
 
 impl FarRimParameters {
     pub fn new(settings: &Settings, camera: &Camera) -> Self {
-        let width = (WIDTH / camera.pixel_spacing()).clamp(NARROWEST, WIDEST as f64);
+        let width = (WIDTH / camera.pixel_spacing()).clamp(NARROWEST, WIDEST);
         Self { width: width as f32, strength: settings.far_rim as f32 }
     }
 }
@@ -54,7 +54,7 @@ pub fn far_rim(
     shares.par_chunks_mut(width).enumerate().try_for_each(|(row, shares)| {
         work.begin(width)?;
         let mut rim = vec![0f32; width];
-        let reach = parameters.width.ceil() as usize;
+        let reach = parameters.reach();
         let from = row.saturating_sub(reach);
         for (above, sources) in (from..).zip(&sources[from..(row + reach + 1).min(work.size[1])]) {
             for source in sources {
@@ -76,6 +76,11 @@ pub fn far_rim(
 }
 
 impl FarRimParameters {
+    /// The largest distance (pixels) between a jump and its rim.
+    pub fn reach(&self) -> usize {
+        self.width.ceil() as usize
+    }
+
     /// The rim at an offset from the jump (pixels): 1 at the jump, 0 from the width on.
     #[inline(always)]
     fn at(&self, [x, y]: [f32; 2]) -> f32 {
@@ -102,6 +107,11 @@ impl Jumps<'_> {
         let mut sources = Vec::new();
         for i in 0..self.width {
             let here = row * self.width + i;
+            let left = if i > 0 { self.leap[here - 1] & TO_THE_RIGHT } else { 0 };
+            let above = if row > 0 { self.leap[here - self.width] & DOWNWARDS } else { 0 };
+            if (self.leap[here] & LEAPS) | left | above == 0 {
+                continue;
+            }
             let next = [(here, TO_THE_RIGHT, 1), (here, DOWNWARDS, self.width)];
             let last = [(i > 0, TO_THE_RIGHT, 1), (row > 0, DOWNWARDS, self.width)];
             let last = last.into_iter().filter(|(is_inside, ..)| *is_inside);

@@ -5,7 +5,6 @@ use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
 use super::depth::CutSurface;
-use super::far_rim::WIDEST as FARTHEST_LEAP;
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
@@ -142,13 +141,13 @@ pub(crate) const LINES: usize = 1;
 const AROUND: usize = 2;
 pub(super) const SHADE: usize = 3;
 
-/// Writes the shares. In tiles that no silhouette reaches according to `leap`,
-/// the silhouettes' share is arbitrary; with an empty `leap` it is exact everywhere.
+/// Writes the shares. In tiles farther than `reach` (pixels) from every jump of `leap`, the silhouettes' share is
+/// arbitrary; with an empty `leap` it is exact everywhere.
 pub fn focus(
     work: &Work,
     surface: &CutSurface,
     parameters: &FocusParameters,
-    leap: &[u32],
+    (leap, reach): (&[u32], usize),
     shares: &mut [Shares],
 ) -> Result<()> {
     work.expect_whole(Image::Focus, shares);
@@ -157,23 +156,22 @@ pub fn focus(
     }
     shares.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, pixels)| {
         work.begin(pixels.len())?;
-        let has_lines = tiles_with_lines(leap, work.size[0], row);
+        let has_lines = tiles_with_lines((leap, reach), work.size[0], row);
         dispatch(work.isa, FocusRow { surface, parameters, has_lines: &has_lines, row, pixels });
         Ok(())
     })
 }
 
 /// For each tile of a row, whether the line of a depth jump can lie in it; empty if jumps are unknown.
-fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
-    let first = (row * ROWS).saturating_sub(FARTHEST_LEAP) * width;
-    let end = ((row + 1) * ROWS + FARTHEST_LEAP) * width;
+fn tiles_with_lines((leap, reach): (&[u32], usize), width: usize, row: usize) -> Vec<bool> {
+    let first = (row * ROWS).saturating_sub(reach) * width;
+    let end = ((row + 1) * ROWS + reach) * width;
     let mut columns = vec![0; if leap.is_empty() { 0 } else { width }];
     for row in leap[first.min(leap.len())..end.min(leap.len())].chunks_exact(width) {
         columns.iter_mut().zip(row).for_each(|(all, bits)| *all |= bits);
     }
     let tiles = (0..columns.len()).step_by(COLUMNS);
-    let around =
-        tiles.map(|c| c.saturating_sub(FARTHEST_LEAP)..(c + COLUMNS + FARTHEST_LEAP).min(columns.len()));
+    let around = tiles.map(|c| c.saturating_sub(reach)..(c + COLUMNS + reach).min(columns.len()));
     around.map(|around| columns[around].iter().any(|bits| bits & LEAPS != 0)).collect()
 }
 
