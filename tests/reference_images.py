@@ -52,7 +52,7 @@ def silhouettes(surface, camera, tolerance):
     """Return the strength of silhouettes by the rule `leap`, and where rounding may change the strength.
 
     The depth jumps between two neighbours if it differs from the extrapolation of either slope, both
-    times by more than the diameter of the vessel and by more than 2 mm. Each jump draws its own line.
+    times by more than the diameter of the vessel and by more than 2 mm. Folds are no jumps. Each jump draws its own line.
     """
     lumen, strength = surface.beyond <= 0, np.zeros(surface.depth.shape)
     vague_here = surface.unsure_depth | surface.unsure_vessel | (np.abs(surface.beyond) < tolerance)
@@ -106,6 +106,12 @@ def leaps_between(surface, camera):
             for end in (here, there)
         ]
         least = np.minimum(*off)
+        # One lumen that runs along the view between both pixels has folds instead, up to two diameters deep.
+        apart, both = np.abs(change), surface.beyond <= 0
+        most = 4 * np.minimum(surface.radius[here], surface.radius[there])
+        fold = np.minimum(most - apart, apart - 0.9 * np.abs(surface.along[there] - surface.along[here]))
+        is_one = both[here] & both[there] & (surface.vessel[here] == surface.vessel[there])
+        least = np.where(is_one, np.minimum(least, -fold), least)
         for j, i in np.ndindex(least.shape):
             pairs.append(((j, i), (j + (axis == 0), i + (axis == 1)), least[j, i]))
     return pairs

@@ -33,6 +33,7 @@ class Surface:
     beyond: (
         np.ndarray
     )  # how far beyond the lumen of the winner at level 0 the pixel lies (mm), negative within
+    along: np.ndarray  # arc length of the winner at level 0 (mm)
     slope: np.ndarray  # change of depth to the right and upwards, (H, W, 2)
     gap: np.ndarray  # arc length between the two places that are blended (mm)
     cost: np.ndarray  # mm, blended
@@ -210,7 +211,7 @@ def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
     gap = np.where(same, np.abs(second["s"] - first["s"]) * (weight > 0), np.inf)
     flat = (
         *(mixed("z"), vessel, distance, mixed("slack"), unsure, other),
-        *(decided.r, decided.d - decided.r, mixed("slope"), gap),
+        *(decided.r, decided.d - decided.r, decided.s, mixed("slope"), gap),
         *(mixed("cost"), fine + weight, np.where(weight > 0.5, second["kind"], first["kind"])),
     )
     size = camera.size[::-1]

@@ -123,15 +123,16 @@ def _idle_rules(settings: Settings) -> Iterator[_Idle]:
         yield ("others_strength",), "without a focus, in which it counts", "give --focus"
     if not settings.focus_vessels:
         yield ("others_strength",), "without chosen vessels", "give --focus-vessels"
+    at_jumps = ("far_rim", *(("edge_samples",) if settings.edge_samples > 1 else ()))
     if not (settings.silhouettes or settings.focus_vessels):
         names = ("silhouette_rule", "silhouette_slope", "silhouette_reach", "silhouette_color")
-        yield (*names, "edge_samples", "far_rim"), "without silhouettes", "give --silhouettes"
+        yield (*names, *at_jumps), "without silhouettes", "give --silhouettes"
     if settings.silhouette_rule == "leap":
         why = "with --silhouette-rule leap, which has no slope"
         yield ("silhouette_slope",), why, "give --silhouette-rule gradient"
     else:
         why = "with --silhouette-rule gradient, which has no lines at jumps"
-        yield ("edge_samples", "far_rim"), why, "give --silhouette-rule leap"
+        yield at_jumps, why, "give --silhouette-rule leap"
     if settings.silhouette_reach is None:
         yield ("far_rim",), "without --silhouette-reach: no line fades out", "give --silhouette-reach"
     if settings.samples > 1:
