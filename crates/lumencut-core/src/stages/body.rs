@@ -12,13 +12,13 @@ use crate::math::ray::NONE;
 use crate::math::thickness::one_minus_power_of_two;
 
 /// Colour of the body, red, green and blue, 0 to 1.
-const COLOR: [f32; 3] = [150.0 / 255.0, 160.0 / 255.0, 175.0 / 255.0];
+pub const COLOR: [f32; 3] = [150.0 / 255.0, 160.0 / 255.0, 175.0 / 255.0];
 /// Opacities: of the body everywhere, of the glow along its border, and of the border's line.
-const EVERYWHERE: f32 = 0.05;
-const GLOW: f32 = 0.13;
-const LINE: f32 = 0.16;
+pub const EVERYWHERE: f32 = 0.05;
+pub const GLOW: f32 = 0.13;
+pub const LINE: f32 = 0.16;
 /// The glow falls to 1/e over this distance (mm).
-const GLOW_MM: f32 = 8.0;
+pub const GLOW_MM: f32 = 8.0;
 /// Width of the line (pixels).
 const LINE_PIXELS: f64 = 2.5;
 /// Towards a face of the volume that cuts the body, the outline fades over this distance (mm).

@@ -169,6 +169,7 @@ fn everything() -> Settings {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
         s.occlusion = 0.6;
+        s.context = Some(Context { body: true, ..Context::default() });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
 }
