@@ -84,8 +84,7 @@ class Settings(CheckedSettings):
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
     occlusion : float, 0 to 1, default 0
-        Darken the cut where it lies deeper than its surroundings (number, 0 to 1); lumen and wall keep
-        their grey. 0.6 suits pictures without silhouettes. Tissue values then look up to that much darker.
+        Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
@@ -134,9 +133,9 @@ class Settings(CheckedSettings):
     context_strength : float, 0 to 1, default 1
         Brightness of the context: factor of its colours (number, 0 to 1).
     context_halo : float, 0 to 1, default 0
-        Darken the context around a ``focus``, most at its edge (number, 0 to 1): the cut stands out.
+        Darken the context around a ``focus`` (number, 0 to 1).
     context_body : bool, default False
-        Outline the body faintly behind the context, if the scan shows the air around it; not in previews.
+        Outline the body if the scan shows air around it; not in previews.
     context_preview : bool, default False
         Trace one ray per 6 × 6 pixels: faster and coarser.
 
