@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,7 @@ from lumencut.dicom.reading.files import read_files
 from lumencut.dicom.web.address import is_address
 from lumencut.errors import FileError, FormatError
 from lumencut.files.grids import open_grid
+from lumencut.files.ome_zarr.stores import is_ome_zarr, is_served
 from lumencut.scene.images import as_volume
 from lumencut.scene.volume import Volume
 from lumencut.scene.volume_file import VolumeFile
@@ -93,6 +94,9 @@ def read_volume(
     fill_gaps: bool = False,
     resample_slices: bool = False,
     segments: Iterable[int] | None = None,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> Volume:
     """Read a volume; nothing is resampled unless requested, shear and flips are kept.
@@ -100,8 +104,9 @@ def read_volume(
     Parameters
     ----------
     path : str or path
-        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file, or the address of a series or
-        study in a PACS: ``dicomweb:https://HOST/ROOT/studies/UID/series/UID``.
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file; the address of a series or study
+        in a PACS, ``dicomweb:https://HOST/ROOT/studies/UID/series/UID``; or an OME-Zarr folder, zip archive
+        or address on this machine, whose axes x, y and z are taken as LPS.
     series : str or int, optional
         Number or UID of the DICOM series to read where a folder holds several. By default the only one
         that can be an angiography volume.
@@ -119,12 +124,19 @@ def read_volume(
     segments : iterable of int, optional
         The numbers of the segments of a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer) that are read; by
         default all, which must not overlap then.
+    memory : int, optional
+        Most bytes of voxels of an OME-Zarr image in memory, 1 GB by default; other formats are read whole.
+    channel : str or int, optional
+        Name or number of the channel of an OME-Zarr image with several.
+    time_point : int, optional
+        Number of the time point of an OME-Zarr image with several.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
     Returns
     -------
     Volume
+        For OME-Zarr a :class:`VolumePyramid`, whose voxels are read when they are needed. Otherwise:
         The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
         float32 (float64 where they are stored so). A segmentation becomes a label map: each voxel has
         the number of its segment, or 0; fractional ones count from one half on. What was assumed is logged as
@@ -143,7 +155,15 @@ def read_volume(
     """
     callback(FormatError, "progress", progress)
     counted = progress if progress is not None else _silent
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+    wanted = _wanted(series, phase, fill_gaps, resample_slices, segments, memory, channel, time_point)
+    if _is_pyramid(path, wanted):
+        from lumencut.files.ome_zarr.opening import notes_on, open_pyramid
+
+        pyramid, multiscale = open_pyramid(path, wanted)
+        for note in notes_on(multiscale, pyramid):
+            _log.warning("%s: %s", path, note)
+        return pyramid
+    file = _open(path, wanted, counted)
     volume = file.volume(counted)
     if not file.format.startswith("DICOM"):
         counted(volume.size[2], volume.size[2])
@@ -159,11 +179,15 @@ def open_volume(
     fill_gaps: bool = False,
     resample_slices: bool = False,
     segments: Iterable[int] | None = None,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> VolumeFile:
     """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
     counted = progress if progress is not None else _silent
-    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+    wanted = _wanted(series, phase, fill_gaps, resample_slices, segments, memory, channel, time_point)
+    return _open(path, wanted, counted)
 
 
 def log_oddities(file: VolumeFile) -> None:
@@ -182,6 +206,9 @@ def inspect_volume(
     fill_gaps: bool = False,
     resample_slices: bool = False,
     values: bool = True,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> VolumeReport:
     """Report what a volume file holds, and anything unusual.
@@ -192,7 +219,7 @@ def inspect_volume(
         A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
         Number or UID of the DICOM series where a folder holds several.
-    phase, fill_gaps, resample_slices
+    phase, fill_gaps, resample_slices, memory, channel, time_point
         As for `read_volume`.
     values : bool, default True
         Read the voxels too, to check them and find their range; False reads headers only.
@@ -206,7 +233,9 @@ def inspect_volume(
     """
     callback(FormatError, "progress", progress)
     counted = progress if progress is not None else _silent
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    file = _open(
+        path, _wanted(series, phase, fill_gaps, resample_slices, None, memory, channel, time_point), counted
+    )
     return _report(file, _values(file, counted) if values else None)
 
 
@@ -217,12 +246,17 @@ def inspected_volume(
     phase: str | float | None = None,
     fill_gaps: bool = False,
     resample_slices: bool = False,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[VolumeReport, Volume]:
     """Return the report of `inspect_volume` and the volume, with the same parameters and errors."""
     callback(FormatError, "progress", progress)
     counted = progress if progress is not None else _silent
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    file = _open(
+        path, _wanted(series, phase, fill_gaps, resample_slices, None, memory, channel, time_point), counted
+    )
     volume = _values(file, counted)
     report = _report(file, volume)
     if volume is None:
@@ -310,10 +344,11 @@ def _wanted(
     phase: object,
     fill_gaps: bool,
     resample_slices: bool,
-    segments: Iterable[int] | None = None,
+    segments: Iterable[int] | None,
+    *of_zarr: Any,
 ) -> Wanted:
     chosen = None if segments is None else _numbers_of(segments)
-    return Wanted(_text(series), _text(phase), fill_gaps, resample_slices, chosen)
+    return Wanted(_text(series), _text(phase), fill_gaps, resample_slices, chosen, *of_zarr)
 
 
 def _numbers_of(segments: Any) -> tuple[int, ...]:
@@ -329,10 +364,27 @@ def _text(value: object) -> str | None:
     return None if value is None else str(value)
 
 
+def _is_pyramid(given: str | os.PathLike[str], wanted: Wanted) -> bool:
+    """Return whether a path names an OME-Zarr image; reject options of the other kind of files."""
+    is_pyramid = is_served(given) or (not is_address(given) and is_ome_zarr(checked_path(given, _KNOWN)))
+    for field in fields(Wanted):
+        is_of_zarr = field.name in ("memory", "channel", "time_point")
+        if is_of_zarr != is_pyramid and getattr(wanted, field.name) != field.default:
+            kind = "DICOM or a segmentation" if is_pyramid else "OME-Zarr"
+            raise FormatError(
+                str(given), f"{field.name} for a file of another kind", kind, f"leave {field.name} out"
+            )
+    return is_pyramid
+
+
 def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
     """Choose the reader by content, or by name if the content is ambiguous."""
     if is_address(given):
         return _fetched(given, wanted, progress)
+    if _is_pyramid(given, wanted):
+        from lumencut.files.ome_zarr.opening import pyramid_file
+
+        return pyramid_file(given, wanted).checked()
     path = _existing(given)
     notes: list[str] = []
     with heeding(progress) as counted, refusing(path, "volume", notes):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Literal
@@ -20,7 +21,9 @@ from lumencut.scene.tree_windows import SceneWindows
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_names import id_or_name
 from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.view_extent import part_in_view
 from lumencut.scene.volume import Volume
+from lumencut.scene.volume_pyramid import VolumePyramid
 from lumencut.scene.window import Window
 
 #: The images that need a window.
@@ -89,6 +92,7 @@ class Renderer:
 
             check_lines_once(tree[:])
         self._volume, self._tree, self._scene = volume, tree, scene
+        self._part: tuple[_lumencut.Renderer, weakref.ref[Volume]] | None = None
 
     def with_tree(self, tree: VesselTree | None) -> Renderer:
         """Return a renderer of the same volume on the same device with another tree, or without one.
@@ -113,7 +117,7 @@ class Renderer:
         """Return a renderer of some vessels of the tree, which are not compared with the volume again."""
         tree = VesselTree(vessels)
         other = object.__new__(Renderer)
-        other._volume, other._tree, other._scene = self._volume, tree, tree
+        other._volume, other._tree, other._scene, other._part = self._volume, tree, tree, None
         return self._sharing(other)
 
     def _sharing(self, other: Renderer) -> Renderer:
@@ -197,7 +201,8 @@ class Renderer:
         settings, source = self._with_source(settings, asked)
         names = asked if asked is not None else self._at_once(settings)
         callback(SettingsError, "progress", progress)
-        buffers = self._core.render(self._volume, camera, checked(settings), names, progress)
+        core, volume = self._shown(camera, settings)
+        buffers = core.render(volume, camera, checked(settings), names, progress)
         return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(
@@ -259,6 +264,16 @@ class Renderer:
             arrays["_distance"] = lambda: core.render(None, camera, used, ["distance"])["distance"]
         requested = None if asked is None else tuple(asked)
         return Frame(camera, buffers["timings"], **arrays, _asked=requested, _source=source)
+
+    def _shown(self, camera: Camera, settings: Settings) -> tuple[_lumencut.Renderer, Volume | None]:
+        """Return what renders a view, and the volume to read: of a pyramid, only what the view can show."""
+        if not isinstance(self._volume, VolumePyramid):
+            return self._core, self._volume
+        part = part_in_view(self._volume, self._core, camera, settings, has_tree=self._tree is not None)
+        if self._part is None or self._part[1]() is not part:
+            # The pyramid alone keeps a part in memory.
+            self._part = self._core.with_other_volume(), weakref.ref(part)
+        return self._part[0], part
 
     def _with_source(
         self, settings: Settings, asked: list[str] | None, method: str = "csr"
