@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import weakref
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Literal
@@ -21,9 +20,8 @@ from lumencut.scene.tree_windows import SceneWindows
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_names import id_or_name
 from lumencut.scene.vessel_tree import VesselTree
-from lumencut.scene.view_extent import part_in_view
+from lumencut.scene.view_extent import PartsInView
 from lumencut.scene.volume import Volume
-from lumencut.scene.volume_pyramid import VolumePyramid
 from lumencut.scene.window import Window
 
 #: The images that need a window.
@@ -92,7 +90,6 @@ class Renderer:
 
             check_lines_once(tree[:])
         self._volume, self._tree, self._scene = volume, tree, scene
-        self._part: tuple[_lumencut.Renderer, weakref.ref[Volume]] | None = None
 
     def with_tree(self, tree: VesselTree | None) -> Renderer:
         """Return a renderer of the same volume on the same device with another tree, or without one.
@@ -117,7 +114,7 @@ class Renderer:
         """Return a renderer of some vessels of the tree, which are not compared with the volume again."""
         tree = VesselTree(vessels)
         other = object.__new__(Renderer)
-        other._volume, other._tree, other._scene, other._part = self._volume, tree, tree, None
+        other._volume, other._tree, other._scene = self._volume, tree, tree
         return self._sharing(other)
 
     def _sharing(self, other: Renderer) -> Renderer:
@@ -201,7 +198,7 @@ class Renderer:
         settings, source = self._with_source(settings, asked)
         names = asked if asked is not None else self._at_once(settings)
         callback(SettingsError, "progress", progress)
-        core, volume = self._shown(camera, settings)
+        core, volume = self._parts.shown(self._volume, self._tree is not None, camera, settings)
         buffers = core.render(volume, camera, checked(settings), names, progress)
         return self._frame(camera, settings, buffers, asked, source)
 
@@ -265,15 +262,10 @@ class Renderer:
         requested = None if asked is None else tuple(asked)
         return Frame(camera, buffers["timings"], **arrays, _asked=requested, _source=source)
 
-    def _shown(self, camera: Camera, settings: Settings) -> tuple[_lumencut.Renderer, Volume | None]:
-        """Return what renders a view, and the volume to read: of a pyramid, only what the view can show."""
-        if not isinstance(self._volume, VolumePyramid):
-            return self._core, self._volume
-        part = part_in_view(self._volume, self._core, camera, settings, has_tree=self._tree is not None)
-        if self._part is None or self._part[1]() is not part:
-            # The pyramid alone keeps a part in memory.
-            self._part = self._core.with_other_volume(), weakref.ref(part)
-        return self._part[0], part
+    @functools.cached_property
+    def _parts(self) -> PartsInView:
+        """The parts of a pyramid that views show."""
+        return PartsInView(self._core)
 
     def _with_source(
         self, settings: Settings, asked: list[str] | None, method: str = "csr"

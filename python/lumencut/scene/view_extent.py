@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import weakref
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,12 +11,12 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.scene.checked_settings import checked
+from lumencut.scene.volume_pyramid import VolumePyramid
 
 if TYPE_CHECKING:
     from lumencut.scene.camera import Camera
     from lumencut.scene.settings import Settings
     from lumencut.scene.volume import Volume
-    from lumencut.scene.volume_pyramid import VolumePyramid
 
 #: Planes that meet at an angle below about this (radians) have no corner.
 _PARALLEL = 1e-9
@@ -23,7 +24,33 @@ _PARALLEL = 1e-9
 _ROUNDING = 1e-6
 
 
-def part_in_view(
+class PartsInView:
+    """What renders the views of a scene, and the volume that each of them reads.
+
+    Parameters
+    ----------
+    core : _lumencut.Renderer
+        Renders views of the whole volume.
+    """
+
+    def __init__(self, core: _lumencut.Renderer) -> None:
+        self._core = core
+        self._last: tuple[_lumencut.Renderer, weakref.ref[Volume]] | None = None
+
+    def shown(
+        self, volume: Volume, has_tree: bool, camera: Camera, settings: Settings
+    ) -> tuple[_lumencut.Renderer, Volume]:
+        """Return what renders a view, and the volume to read: of a pyramid, only what the view can show."""
+        if not isinstance(volume, VolumePyramid):
+            return self._core, volume
+        part = _part_in_view(volume, self._core, camera, settings, has_tree=has_tree)
+        if self._last is None or self._last[1]() is not part:
+            # The pyramid alone keeps a part in memory.
+            self._last = self._core.with_other_volume(), weakref.ref(part)
+        return self._last[0], part
+
+
+def _part_in_view(
     pyramid: VolumePyramid, core: _lumencut.Renderer, camera: Camera, settings: Settings, *, has_tree: bool
 ) -> Volume:
     """Return the part of a pyramid that a view shows, at the level that fits its pixels.
