@@ -124,6 +124,10 @@ def test_measurements_sections_reformations_and_lines_are_the_same(stenosis):
     own, expected = (lumencut.measure(volume, vessel) for volume in (read, made.volume))
     np.testing.assert_array_equal(own.diameter_equivalent, expected.diameter_equivalent)
     np.testing.assert_array_equal(own.flags, expected.flags)
+    own.save(path.parent / "own.csv")
+    lines = (path.parent / "own.csv").read_text("utf-8").splitlines()
+    assert len(lines) == len(own) + 1
+    assert all("level 0" in line for line in lines[1:])
     for at in (5.0, 45.0):
         sections = [lumencut.cross_section(volume, vessel, at).value for volume in (read, made.volume)]
         np.testing.assert_array_equal(*sections)

@@ -66,8 +66,6 @@ class Volume(KeepsReadOnly):
     _study: Study | None = None
     #: The patient, from the DICOM header.
     _patient = Patient()
-    #: The level of a :class:`VolumePyramid` whose voxels these are.
-    _level: int | None = None
 
     def __init__(
         self,

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from lumencut.base.memory import in_words
 from lumencut.errors import VolumeError
 from lumencut.scene.chunk_cache import ChunkCache, ChunkedArray, Triple
+from lumencut.scene.scan_details import ScanDetails
 from lumencut.scene.study import Origin
 from lumencut.scene.volume import Volume
 
@@ -91,6 +92,7 @@ class VolumePyramid(Volume):
             found = f"{in_words(memory)}, and a coarsest level of {in_words(self._levels[-1].bytes)}"
             raise VolumeError("memory", found, f"at least {in_words(needed)}", f"set memory={needed}")
         self._whole_level = fitting[0]
+        self._scan = _scan_of(fitting[0])
         self._world_from_index = self._levels[fitting[0]].world_from_index
         self._cache = ChunkCache([level.array for level in self._levels])
         self._part: tuple[int, Triple, Triple, Volume] | None = None
@@ -225,7 +227,7 @@ class VolumePyramid(Volume):
             states_spacing=self._states_spacing,
             states_orientation=self._states_orientation,
         )
-        volume._level = number
+        volume._scan = _scan_of(number)
         return volume
 
     def _moved(self, number: int, low: Triple) -> npt.NDArray[np.float64]:
@@ -243,3 +245,8 @@ class VolumePyramid(Volume):
     def __repr__(self) -> str:
         sizes = ", ".join("{} × {} × {}".format(*level.size) for level in self._levels)
         return f"VolumePyramid({sizes} {self.dtype}, memory {in_words(self._memory)})"
+
+
+def _scan_of(number: int) -> ScanDetails:
+    """Return the details by which tables, JSON and reports state the measured level."""
+    return ScanDetails(series_description=f"level {number}")
