@@ -76,6 +76,7 @@ if TYPE_CHECKING:
     from lumencut.scene.vessel_gap import Gap
     from lumencut.scene.vessel_tree import VesselTree
     from lumencut.scene.volume import Volume
+    from lumencut.scene.volume_pyramid import VolumePyramid
     from lumencut.scene.window import Opacity, Window
     from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.tracing.mask_tracing import trace_mask
@@ -148,6 +149,7 @@ _HOME = {
     "scene.vessel_gap": ("Gap",),
     "scene.vessel_tree": ("VesselTree",),
     "scene.volume": ("Volume",),
+    "scene.volume_pyramid": ("VolumePyramid",),
     "scene.window": ("Opacity", "Window"),
     "tracing.centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "tracing.mask_tracing": ("trace_mask",),
@@ -215,6 +217,7 @@ __all__ = [
     "VesselTreeError",
     "Volume",
     "VolumeError",
+    "VolumePyramid",
     "Window",
     "__version__",
     "batch",

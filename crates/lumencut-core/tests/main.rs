@@ -2,6 +2,7 @@
 
 mod along_rays;
 mod bad_input;
+mod body;
 mod centerline_smoothing;
 mod chosen;
 mod context;

@@ -90,7 +90,7 @@ fn what_nothing_reads_is_not_made() {
     assert_eq!(stages(&leaps, &[Image::Depth]), (vec![Stage::Depth], false));
     assert_eq!(stages(&leaps, &[Image::Picture]), (vec![Stage::Depth, Stage::Leap], true));
     let quiet = Settings { silhouette_reach: Some(10.0), ..leaps };
-    let with_reach = vec![Stage::Depth, Stage::Leap, Stage::Focus];
+    let with_reach = vec![Stage::Depth, Stage::Leap, Stage::Focus, Stage::FarRim];
     assert_eq!(stages(&quiet, &[Image::Picture]), (with_reach, true));
     assert_eq!(stages(&quiet, &[Image::Depth, Image::Context]), (vec![Stage::Depth], false));
     let paper = Settings { depth_filter: false, ..Settings::paper() };

@@ -10,8 +10,9 @@ use crate::text::rounded;
 /// The values above the smallest one are counted in this number of equal ranges, up to this quantile.
 const RANGES: usize = 8;
 const LAST_QUANTILE: f64 = 0.99;
-/// In a scan that was cut off, no range holds more voxels than the first, and the second holds at least this share of them.
-/// Around padding the second is nearly empty.
+/// In a scan that was cut off, no range holds more voxels than the first, up to this factor, and the second holds at least
+/// this share of them. Around padding the second is nearly empty.
+const MORE: f64 = 1.25;
 const NEXT_SHARE: f64 = 0.15;
 /// Below this value (HU) lies only air, so nothing is lost.
 const AIR: f64 = -900.0;
@@ -29,9 +30,9 @@ pub(crate) fn note_of(sampled: &VoxelSample) -> Option<String> {
         let limit = smallest + (last - smallest) * n as f64 / RANGES as f64;
         rest.partition_point(|value| *value <= limit)
     };
-    let counts: [usize; RANGES] = std::array::from_fn(|n| end(n + 1) - end(n));
+    let counts: [f64; RANGES] = std::array::from_fn(|n| (end(n + 1) - end(n)) as f64);
     let [first, next, ..] = counts;
-    if counts.iter().any(|count| *count > first) || (next as f64) < NEXT_SHARE * first as f64 {
+    if counts.iter().any(|count| *count > MORE * first) || next < NEXT_SHARE * first {
         return None;
     }
     let percent = 100.0 * (sampled.voxels.len() - rest.len()) as f64 / sampled.voxels.len() as f64;

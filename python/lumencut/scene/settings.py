@@ -88,12 +88,8 @@ class Settings(CheckedSettings):
         Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
-    far_rim : float, 0 to 1, default 0.3
-        Darken the farther side of a depth jump where its silhouette has faded out (number, 0 to 1). Lumen
-        and wall keep their grey. Needs silhouettes with the rule ``leap`` and ``silhouette_reach``.
     occlusion : float, 0 to 1, default 0
-        Darken the cut where it lies deeper than its surroundings (number, 0 to 1); lumen and wall keep
-        their grey. 0.6 suits pictures without silhouettes. Tissue values then look up to that much darker.
+        Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     tree : {"hidden", "wireframe"}, default "hidden"
@@ -146,9 +142,9 @@ class Settings(CheckedSettings):
     context_strength : float, 0 to 1, default 1
         Brightness of the context: factor of its colours (number, 0 to 1).
     context_halo : float, 0 to 1, default 0
-        Darken the context around a ``focus``, most at its edge (number, 0 to 1): the cut stands out.
+        Darken the context around a ``focus`` (number, 0 to 1).
     context_body : bool, default False
-        Outline the body faintly behind the context, if the scan shows the air around it; not in previews.
+        Outline the body if the scan shows air around it; not in previews.
     context_preview : bool, default False
         Trace one ray per 6 × 6 pixels: faster and coarser.
 
@@ -179,7 +175,6 @@ class Settings(CheckedSettings):
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
-    far_rim: float = 0.3
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     tree: TreeName = "hidden"

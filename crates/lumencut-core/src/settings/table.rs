@@ -119,9 +119,7 @@ settings! {
         /// Lumen and wall keep their grey. Needs silhouettes with the rule `leap` and `silhouette_reach`.
         far_rim: f64 = 0.3, range(0.0, 1.0, "of its brightness");
 
-        /// Darken the cut where it lies deeper than its surroundings (number, 0 to 1); lumen and wall keep their grey.
-        ///
-        /// 0.6 suits pictures without silhouettes. Tissue values then look up to that much darker.
+        /// Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
         occlusion: f64 = 0.0, range(0.0, 1.0, "of its brightness");
 
         /// Colour of the silhouettes.
@@ -205,10 +203,10 @@ settings! {
         /// Brightness of the context: factor of its colours (number, 0 to 1).
         context_strength: f64 = 1.0, range(0.0, 1.0, "of its brightness");
 
-        /// Darken the context around a `focus`, most at its edge (number, 0 to 1): the cut stands out.
+        /// Darken the context around a `focus` (number, 0 to 1).
         context_halo: f64 = 0.0, range(0.0, 1.0, "of its brightness");
 
-        /// Outline the body faintly behind the context, if the scan shows the air around it; not in previews.
+        /// Outline the body if the scan shows air around it; not in previews.
         context_body: bool = false;
 
         /// Trace one ray per 6 × 6 pixels: faster and coarser.

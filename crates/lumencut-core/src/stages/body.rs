@@ -12,13 +12,13 @@ use crate::math::ray::NONE;
 use crate::math::thickness::one_minus_power_of_two;
 
 /// Colour of the body, red, green and blue, 0 to 1.
-const COLOR: [f32; 3] = [150.0 / 255.0, 160.0 / 255.0, 175.0 / 255.0];
+pub const COLOR: [f32; 3] = [150.0 / 255.0, 160.0 / 255.0, 175.0 / 255.0];
 /// Opacities: of the body everywhere, of the glow along its border, and of the border's line.
-const EVERYWHERE: f32 = 0.05;
-const GLOW: f32 = 0.13;
-const LINE: f32 = 0.16;
+pub const EVERYWHERE: f32 = 0.05;
+pub const GLOW: f32 = 0.13;
+pub const LINE: f32 = 0.16;
 /// The glow falls to 1/e over this distance (mm).
-const GLOW_MM: f32 = 8.0;
+pub const GLOW_MM: f32 = 8.0;
 /// Width of the line (pixels).
 const LINE_PIXELS: f64 = 2.5;
 /// Towards a face of the volume that cuts the body, the outline fades over this distance (mm).
@@ -27,6 +27,8 @@ const CUT_FADE_MM: f32 = 30.0;
 const FARTHEST_MM: f32 = 60.0;
 /// A cell of the body covers this many of its sides around its centre.
 const COVERED: f32 = 0.75;
+/// Least distance of nodes (pixels); the border between them is interpolated.
+const NODE_PIXELS: f64 = 4.0;
 
 /// A coarse grid over the view, with two numbers for each node: the signed distance from the border of the body (mm,
 /// positive within) and the share of the outline that is shown.
@@ -52,7 +54,7 @@ pub struct BodyParameters {
 impl Outline {
     pub fn new(body: &Body, camera: &Camera) -> Self {
         let spacing = camera.pixel_spacing();
-        let side = body.side.max(2.0 * spacing);
+        let side = body.side.max(NODE_PIXELS * spacing);
         // Beyond the view, so that distances in it are right.
         let margin = (f64::from(FARTHEST_MM) / side).ceil();
         let nodes = |n: usize| (n as f64 * spacing / side).ceil() as usize + 1 + 2 * margin as usize;
@@ -82,49 +84,60 @@ impl Raster {
         let mut covered = vec![-FARTHEST_MM; columns * rows];
         let mut is_cut = vec![false; columns * rows];
         let half = camera.size().map(|n| n as f64 * camera.pixel_spacing() / 2.0);
-        let per_mm = 1.0 / f64::from(self.side);
+        let (per_mm, radius) = (1.0 / f64::from(self.side), COVERED * body.side as f32);
         for cell in &body.cells {
             let place = camera.view_from_world(cell.place);
             let [x, y] = [half[0] + place.x, half[1] - place.y].map(|mm| mm * per_mm + margin);
-            if x < 1.0 || y < 1.0 || x >= columns as f64 - 2.0 || y >= rows as f64 - 2.0 {
+            if x < 0.0 || y < 0.0 || x >= columns as f64 - 1.0 || y >= rows as f64 - 1.0 {
                 continue;
             }
-            let (left, top) = (x as usize - 1, y as usize - 1);
-            for (j, i) in (top..top + 4).flat_map(|j| (left..left + 4).map(move |i| (j, i))) {
-                let (Some(dx), Some(dy)) = (self.within(i, 0, x), self.within(j, 1, y)) else { continue };
-                let inside = COVERED * self.side - (dx * dx + dy * dy).sqrt();
+            let (left, top) = (x as usize, y as usize);
+            for (j, i) in [(top, left), (top, left + 1), (top + 1, left), (top + 1, left + 1)] {
+                let [dx, dy] = [i as f64 - x, j as f64 - y].map(|nodes| nodes as f32 * self.side);
+                let inside = radius - (dx * dx + dy * dy).sqrt();
                 let node = j * columns + i;
                 covered[node] = larger(covered[node], inside);
-                is_cut[node] |= cell.is_cut && inside > -0.5 * self.side;
+                is_cut[node] |= cell.is_cut;
             }
         }
         (covered, is_cut)
     }
 
-    /// The distance (mm) of a node from a place along an axis; `None` beyond the grid.
-    #[inline(always)]
-    fn within(&self, node: usize, axis: usize, place: f64) -> Option<f32> {
-        (node < self.size[axis]).then(|| (node as f64 - place) as f32 * self.side)
-    }
-
     fn nodes(&self, covered: &[f32], is_cut: &[bool]) -> Vec<[f32; 2]> {
         let is_border = |node: usize| covered[node] > 0.0 && self.around(node).any(|n| covered[n] <= 0.0);
-        let mut depth: Vec<f32> =
+        let mut outside: Vec<f32> = covered.iter().map(|mm| -mm).collect();
+        let mut inside: Vec<f32> =
             covered.iter().map(|mm| if *mm > 0.0 { FARTHEST_MM } else { 0.0 }).collect();
         let mut from_cut = vec![FARTHEST_MM; covered.len()];
         for node in (0..covered.len()).filter(|node| is_border(*node)) {
-            depth[node] = covered[node];
+            inside[node] = covered[node];
             if is_cut[node] {
                 from_cut[node] = 0.0;
             }
         }
-        self.spread(&mut depth);
-        self.spread(&mut from_cut);
-        let node = |n: usize| {
-            let distance = if covered[n] > 0.0 { depth[n] } else { covered[n] };
-            [distance, smaller(larger(from_cut[n] - 2.0 * self.side, 0.0) / CUT_FADE_MM, 1.0)]
+        [&mut outside, &mut inside, &mut from_cut].into_iter().for_each(|numbers| self.spread(numbers));
+        let signed = |n: usize| if covered[n] > 0.0 { inside[n] } else { -outside[n] };
+        let smooth = self.smoothed(&(0..covered.len()).map(signed).collect::<Vec<_>>());
+        let share = |mm: f32| smaller(larger(mm - 2.0 * self.side, 0.0) / CUT_FADE_MM, 1.0);
+        smooth.into_iter().zip(from_cut).map(|(inside, from_cut)| [inside, share(from_cut)]).collect()
+    }
+
+    /// Means over 3 × 3 nodes with binomial weights: single cells no longer show in the border.
+    fn smoothed(&self, numbers: &[f32]) -> Vec<f32> {
+        let along = |numbers: &[f32], stride: usize, is_end: &dyn Fn(usize) -> bool| -> Vec<f32> {
+            let mean = |n: usize| {
+                let middle = numbers[n];
+                if is_end(n) {
+                    middle
+                } else {
+                    0.25 * (numbers[n - stride] + numbers[n + stride]) + 0.5 * middle
+                }
+            };
+            (0..numbers.len()).map(mean).collect()
         };
-        (0..covered.len()).map(node).collect()
+        let [columns, rows] = self.size;
+        let across = along(numbers, 1, &|n| n % columns == 0 || n % columns == columns - 1);
+        along(&across, columns, &|n| n / columns == 0 || n / columns == rows - 1)
     }
 
     /// The nodes to the left and right, above and below.

@@ -8,7 +8,7 @@ const LINE: f32 = 0.16;
 const GLOW_MM: f32 = 8.0;
 const LOG2_E: f32 = 1.4426950408889634;
 // The start of a ray that is not needed.
-const NO_RAY: f32 = 1e9;
+const NONE: f32 = 1e9;
 
 struct BodyParameters {
     size: vec2u,
@@ -25,7 +25,7 @@ struct BodyParameters {
 
 @compute @workgroup_size(16, 4)
 fn body(@builtin(global_invocation_id) thread: vec3u) {
-    if !in_view(thread.xy) || start[place_of(thread.xy)] >= NO_RAY {
+    if !in_view(thread.xy) || start[place_of(thread.xy)] >= NONE {
         return;
     }
     let place = parameters.first + vec2f(thread.xy) * parameters.per_pixel;

@@ -20,11 +20,11 @@ const HARD_EDGE_PER_MM: f64 = 1e20;
 /// Minimum width of a fade (pixels); a narrower fade would show steps.
 const MIN_FADE_PIXELS: f64 = 2.0;
 /// The halo is full up to this distance from the wall (mm), and then falls to 1/e over this distance again.
-const HALO_MM: f32 = 6.0;
+pub const HALO_MM: f32 = 6.0;
 /// Beyond this distance (mm) a halo would change the context by less than half a grey value.
-const HALO_END_MM: f32 = 7.0 * HALO_MM;
+pub const HALO_END_MM: f32 = 42.0;
 /// Beyond the wall, occlusion fades in over this distance (mm).
-const SHADE_FADE_MM: f32 = 1.0;
+pub const SHADE_FADE_MM: f32 = 1.0;
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]

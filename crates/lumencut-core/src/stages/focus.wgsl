@@ -15,9 +15,9 @@ struct FocusParameters {
 }
 
 // focus.rs explains these distances (mm).
-const HALO: f32 = 6.0;
-const HALO_END: f32 = 7.0 * HALO;
-const SHADE_FADE: f32 = 1.0;
+const HALO_MM: f32 = 6.0;
+const HALO_END_MM: f32 = 42.0;
+const SHADE_FADE_MM: f32 = 1.0;
 const LOG2_E: f32 = 1.4426950408889634;
 
 @group(0) @binding(4) var<storage, read_write> focus_image: array<vec4f>;
@@ -36,13 +36,13 @@ fn smooth_step(x: f32) -> f32 {
 }
 
 fn around(beyond_wall: f32, share: f32) -> f32 {
-    let away = max(beyond_wall - HALO, 0.0) / HALO;
+    let away = max(beyond_wall - HALO_MM, 0.0) / HALO_MM;
     let halo = 1.0 - focus_parameters.halo * (1.0 - share) * exp2(-away * LOG2_E);
-    return select(1.0, halo, beyond_wall < HALO_END);
+    return select(1.0, halo, beyond_wall < HALO_END_MM);
 }
 
 fn shade(beyond_wall: f32) -> f32 {
-    return focus_parameters.shade * smooth_step((beyond_wall - focus_parameters.wall) / SHADE_FADE);
+    return focus_parameters.shade * smooth_step((beyond_wall - focus_parameters.wall) / SHADE_FADE_MM);
 }
 
 @compute @workgroup_size(TILES)

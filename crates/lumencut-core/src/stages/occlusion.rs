@@ -18,10 +18,10 @@ const SIGMA_PIXELS: f64 = 2.0;
 /// The largest number of weights on one side of a Gaussian, with the middle one.
 const MAX_WEIGHTS: usize = 16;
 /// A smaller difference of depth (mm) darkens nothing; this much more is the full scale (mm).
-const FIRST_MM: f32 = 0.5;
-const FULL_MM: f32 = 10.0;
+pub const FIRST_MM: f32 = 0.5;
+pub const FULL_MM: f32 = 10.0;
 /// Factor on the mean of both scales.
-const GAIN: f32 = 1.6;
+pub const GAIN: f32 = 1.6;
 
 /// A blur of the depth, on a reduced image.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

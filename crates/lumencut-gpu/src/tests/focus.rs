@@ -58,8 +58,7 @@ fn shares_are_those_of_the_cpu() {
         ] {
             let focus = Some(Focus { margin, fade });
             let context = Some(Context { halo: 0.6, ..Context::default() });
-            let settings =
-                Settings { focus, silhouette_reach, context, occlusion: 0.6, ..Settings::default() };
+            let settings = Settings { focus, silhouette_reach, context, ..Settings::default() };
             for size in SIZES {
                 let camera = view([0.2, 1.0, -0.4], size, 0.6);
                 let [found, expected] = both(&mut gpu, &tree, &camera, &settings);

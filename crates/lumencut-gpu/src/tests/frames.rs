@@ -75,8 +75,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("occlusion", with(|s| s.occlusion = 0.6)),
         ("a full far rim", with(|s| (s.far_rim, s.silhouette_reach) = (1.0, Some(1.0)))),
         ("occlusion of the unfiltered depth", with(|s| (s.occlusion, s.depth_filter) = (1.0, false))),
-        ("the outline of the body", with(|s| s.context = Some(Context { body: true, ..Context::default() }))),
-        ("a halo around the focus", with(|s| halo_around(s, &[]))),
+        ("a halo and the body around the focus", with(|s| halo_around(s, &[]))),
         ("a halo around a chosen vessel", with(|s| halo_around(s, &[0]))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
@@ -170,6 +169,7 @@ fn everything() -> Settings {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
         s.occlusion = 0.6;
+        s.context = Some(Context { body: true, ..Context::default() });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
 }
