@@ -224,7 +224,7 @@ fn halo(beyond: f64, share: f64) -> f64 {
 fn around_the_cut(strength: f64, from: ContextFrom) -> Settings {
     let mode = ContextMode::Average;
     let context = Context { mode, from, halo: strength, ..Context::default() };
-    Settings { context: Some(context), ..with_focus(1.0, 12.0) }
+    Settings { context: Some(context), far_rim: 0.0, ..with_focus(1.0, 12.0) }
 }
 
 #[test]
@@ -273,7 +273,7 @@ fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
     // In this view, lines between zones reach the border of the picture.
     let camera = view([0.2, 1.0, 0.3], [220, 180], 0.6);
     for base in [Settings::default(), Settings::paper()] {
-        let quiet = Settings { silhouette_reach: Some(4.0), ..base.clone() };
+        let quiet = Settings { silhouette_reach: Some(4.0), far_rim: 0.0, ..base.clone() };
         let none = Settings { silhouettes: false, ..base.clone() };
         let [all, found, without] = [&base, &quiet, &none].map(|settings| shown(&phantom, &camera, settings));
         let (mut near, mut far) = (0, 0);

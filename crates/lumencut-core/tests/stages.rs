@@ -231,7 +231,8 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
         assert_eq!(frame.image[pixel(&frame, x, y)][0], expected, "at {x}, {y}");
     }
     let names: Vec<_> = frame.timings.iter().map(|t| t.stage).collect();
-    assert_eq!(names, Stage::ALL.map(Stage::name));
+    let by_default = Stage::ALL.into_iter().filter(|stage| ![Stage::Occlusion, Stage::Body].contains(stage));
+    assert_eq!(names, by_default.map(Stage::name).collect::<Vec<_>>());
 }
 
 #[test]

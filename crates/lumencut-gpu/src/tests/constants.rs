@@ -80,7 +80,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/lanes": lanes::FAN, lanes::UNSET, lanes::ABSENT, lanes::FAR, lanes::EXCLUDED, hierarchy::NO_SLOT,
             blocks::HUGE;
         "math/leaps": leaps::TO_THE_RIGHT, leaps::DOWNWARDS, leaps::LINE_TO_THE_RIGHT, leaps::LINE_DOWNWARDS,
-            leaps::LUMEN;
+            leaps::LUMEN, leaps::WALL;
         "math/levels": settings::MAX_LEVELS;
         "math/light": light::AMBIENT, light::DIFFUSE, light::SPECULAR, light::STEEPEST, light::UNSHADED;
         "math/projection": projection::COLLINEAR_LENGTH, cut_surface::POINT_THREADS;
@@ -94,7 +94,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "stages/context": context::IN_FRONT;
         "stages/depth": depth::CHOSEN_GAP, depth::WALL_GAP;
         "stages/focus": focus::HALO_MM, focus::HALO_END_MM, focus::SHADE_FADE_MM, consts::LOG2_E;
-        "stages/leap": leap::SMALLEST_LEAP, leap::ALONG_VIEW, leap::MOST_DIAMETERS;
+        "stages/leap": depth::CHOSEN_GAP, depth::WALL_GAP, leap::SMALLEST_LEAP, leap::ALONG_VIEW, leap::MOST_DIAMETERS;
         "stages/occlusion": occlusion::FIRST_MM, occlusion::FULL_MM, occlusion::GAIN;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;
