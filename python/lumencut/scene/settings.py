@@ -88,6 +88,9 @@ class Settings(CheckedSettings):
         Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
+    far_rim : float, 0 to 1, default 0.3
+        Darken the farther side of a depth jump where its silhouette has faded out (number, 0 to 1). Lumen
+        and wall keep their grey. Needs silhouettes with the rule ``leap`` and ``silhouette_reach``.
     occlusion : float, 0 to 1, default 0
         Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
@@ -175,6 +178,7 @@ class Settings(CheckedSettings):
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
+    far_rim: float = 0.3
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     tree: TreeName = "hidden"
