@@ -84,10 +84,7 @@ settings! {
         /// centre of each pixel.
         samples: usize = 1, range(1.0, 4.0, "samples");
 
-        /// Average N × N samples per pixel at and next to silhouettes (count, 1 to 4).
-        ///
-        /// Lines and the edges under them become smoother; only the picture changes. Needs the silhouette rule
-        /// `leap`. No effect with `samples` above 1.
+        /// Average N × N samples per pixel at silhouettes of the rule `leap`, unless `samples` exceeds 1 (count, 1 to 4).
         edge_samples: usize = 3, range(1.0, 4.0, "samples");
 
         /// Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
@@ -114,9 +111,7 @@ settings! {
         /// vessels they only mark borders of zones.
         silhouette_reach: Option<f64> = Some(10.0), range(0.0, 1e6, "mm");
 
-        /// Darken the farther side of a depth jump where its silhouette has faded out (number, 0 to 1).
-        ///
-        /// Lumen and wall keep their grey. Needs silhouettes with the rule `leap` and `silhouette_reach`.
+        /// Darken the farther side of a depth jump where `silhouette_reach` hides its line (number, 0 to 1).
         far_rim: f64 = 0.3, range(0.0, 1.0, "of its brightness");
 
         /// Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
