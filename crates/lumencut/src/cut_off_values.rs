@@ -28,8 +28,8 @@ pub(crate) fn note_of(sampled: &VoxelSample) -> Option<String> {
     let smallest = padding(&sampled.voxels).filter(|smallest| *smallest > AIR)?;
     let rest = without_padding(&sampled.voxels);
     let [median, last] = [0.5, LAST_QUANTILE].map(|part| rising_quantile(rest, part));
-    // A range holds at least one of the values of a coarse scale.
-    let near = ((median? - smallest) / TO_MEDIAN).max(rest.first()? - smallest);
+    // A range holds two of the values of a coarse scale.
+    let near = ((median? - smallest) / TO_MEDIAN).max(2.0 * (rest.first()? - smallest));
     let fades = |width: f64| fades(rest, smallest, width);
     if !fades(near) || !fades((last? - smallest) / RANGES as f64) {
         return None;
