@@ -243,6 +243,18 @@ fn beside_one_tube_the_halo_is_the_closed_form() {
 }
 
 #[test]
+fn in_a_preview_the_halo_ends_without_a_step() {
+    let tube = tree(vec![vessel(&[[-100.0, 3.0, 0.0], [100.0, -2.0, 0.0]], 4.0)]);
+    let scene = Scene::default().with_tree(tube);
+    let mut settings = around_the_cut(0.6, ContextFrom::Cut);
+    settings.context.as_mut().unwrap().preview = true;
+    let frame = framed(&scene, &front([3, 200], 0.5), &settings, Isa::widest());
+    let factors: Vec<f32> = frame.focus.chunks(3).map(|row| row[0][2]).collect();
+    assert!(factors.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 0.06));
+    assert!(factors[..48].iter().all(|factor| *factor == 1.0), "20 mm from the wall");
+}
+
+#[test]
 fn a_halo_darkens_the_context_alone() {
     let phantom = y_junction().unwrap();
     let camera = view([0.3, 1.0, 0.2], [120, 90], 0.9);

@@ -7,9 +7,11 @@ use lumencut_core::volume::Volume;
 use crate::populations::{VoxelSample, padding, without_padding};
 use crate::text::rounded;
 
-/// The values above the smallest one are counted in this number of equal ranges, up to this quantile.
+/// Values above the smallest one are counted in this number of equal ranges: up to this quantile, and near the smallest, where
+/// this number of ranges reach the median.
 const RANGES: usize = 8;
 const LAST_QUANTILE: f64 = 0.99;
+const TO_MEDIAN: f64 = 4.0;
 /// In a scan that was cut off, no range holds more voxels than the first, up to this factor, and the second holds at least
 /// this share of them. Around padding the second is nearly empty.
 const MORE: f64 = 1.25;
@@ -25,14 +27,11 @@ pub fn cut_off_note(volume: &Volume) -> Option<String> {
 pub(crate) fn note_of(sampled: &VoxelSample) -> Option<String> {
     let smallest = padding(&sampled.voxels).filter(|smallest| *smallest > AIR)?;
     let rest = without_padding(&sampled.voxels);
-    let last = rising_quantile(rest, LAST_QUANTILE)?;
-    let end = |n: usize| {
-        let limit = smallest + (last - smallest) * n as f64 / RANGES as f64;
-        rest.partition_point(|value| *value <= limit)
-    };
-    let counts: [f64; RANGES] = std::array::from_fn(|n| (end(n + 1) - end(n)) as f64);
-    let [first, next, ..] = counts;
-    if counts.iter().any(|count| *count > MORE * first) || next < NEXT_SHARE * first {
+    let [median, last] = [0.5, LAST_QUANTILE].map(|part| rising_quantile(rest, part));
+    // A range holds two of the values of a coarse scale.
+    let near = ((median? - smallest) / TO_MEDIAN).max(2.0 * (rest.first()? - smallest));
+    let fades = |width: f64| fades(rest, smallest, width);
+    if !fades(near) || !fades((last? - smallest) / RANGES as f64) {
         return None;
     }
     let percent = 100.0 * (sampled.voxels.len() - rest.len()) as f64 / sampled.voxels.len() as f64;
@@ -40,6 +39,14 @@ pub(crate) fn note_of(sampled: &VoxelSample) -> Option<String> {
     Some(format!(
         "{percent:.0} % of the voxels have the smallest value, {smallest}: darker values were cut off, so dark tissue looks like air"
     ))
+}
+
+/// Whether the rising values become fewer above `smallest`, in ranges of this width.
+fn fades(rising: &[f64], smallest: f64, width: f64) -> bool {
+    let end = |n: usize| rising.partition_point(|value| *value <= smallest + width * n as f64);
+    let counts: [f64; RANGES] = std::array::from_fn(|n| (end(n + 1) - end(n)) as f64);
+    let [first, next, ..] = counts;
+    counts.iter().all(|count| *count <= MORE * first) && next >= NEXT_SHARE * first
 }
 
 #[cfg(test)]
@@ -78,7 +85,8 @@ mod tests {
         let air = |count| tissue(-1000.0, 20.0, count);
         assert_eq!(note(&body().collect::<Vec<_>>()), None, "no value is common");
         assert_eq!(note(&cut_at(-1000.0, air(2000).chain(body()))), None, "noise of air was cut off");
-        let padded: Vec<f32> = body().map(|value| value.max(1.0)).chain([0.0; 4000]).collect();
+        let padded: Vec<f32> =
+            tissue(60.0, 15.0, 3000).chain(tissue(350.0, 30.0, 200)).chain([0.0; 4000]).collect();
         assert_eq!(note(&padded), None, "no tissue lies near the padding");
         assert_eq!(note(&[0.0, 0.0, 1.0, 1.0]), None, "a mask");
         assert_eq!(note(&[7.0; 50]), None, "a constant volume");

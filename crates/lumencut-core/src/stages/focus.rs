@@ -22,7 +22,9 @@ const MIN_FADE_PIXELS: f64 = 2.0;
 /// The halo is full up to this distance from the wall (mm), and then falls to 1/e over this distance again.
 pub const HALO_MM: f32 = 6.0;
 /// Beyond this distance (mm) a halo would change the context by less than half a grey value.
-pub const HALO_END_MM: f32 = 42.0;
+const HALO_END_MM: f32 = 42.0;
+/// In a preview the halo ends here (mm), so that a moving view searches no wall farther away.
+const PREVIEW_HALO_END_MM: f32 = 20.0;
 /// Beyond the wall, occlusion fades in over this distance (mm).
 pub const SHADE_FADE_MM: f32 = 1.0;
 
@@ -45,7 +47,9 @@ pub struct FocusParameters {
     pub wall: f32,
     /// How much occlusion darkens the surface beyond the wall, 0 to 1.
     pub shade: f32,
-    pub padding: [f32; 2],
+    /// Distance from the wall at which the halo ends (mm), and its weight there, which is subtracted.
+    pub halo_end: f32,
+    pub halo_rest: f32,
 }
 
 impl FocusParameters {
@@ -57,12 +61,16 @@ impl FocusParameters {
         if both == [None, None] && settings.occlusion == 0.0 {
             return None;
         }
-        let halo = settings.context.as_ref().filter(|_| settings.focus.is_some()).map_or(0.0, |c| c.halo);
+        let context = settings.context.as_ref().filter(|_| settings.focus.is_some());
+        let is_preview = context.is_some_and(|context| context.preview);
+        let halo_end = if is_preview { PREVIEW_HALO_END_MM } else { HALO_END_MM };
         let has_others = settings.focus.is_some() && !settings.focus_vessels.is_empty();
         let others = if has_others { settings.others_strength as f32 } else { 1.0 };
         let mut parameters = Self {
             others,
-            halo: halo as f32,
+            halo: context.map_or(0.0, |context| context.halo) as f32,
+            halo_end,
+            halo_rest: if is_preview { halo_weight(halo_end) } else { 0.0 },
             wall: settings.lumen_margin as f32,
             shade: settings.occlusion as f32,
             ..Self::zeroed()
@@ -84,7 +92,7 @@ impl FocusParameters {
         let fading = which.iter().filter(|n| self.per_fade[**n] > 0.0);
         // Slightly beyond the distance at which the share becomes 0.
         let ends = fading.map(|n| [self.margin[*n], self.margin[*n] + 1.000_01 / self.per_fade[*n]]);
-        let halo = (self.halo > 0.0).then_some([HALO_MM, HALO_END_MM]);
+        let halo = (self.halo > 0.0).then_some([HALO_MM, self.halo_end]);
         let shade = (self.shade > 0.0).then_some([self.wall, self.wall + SHADE_FADE_MM]);
         let ends = ends.chain(halo).chain(shade).map(|[near, far]| [larger(near, 0.0), larger(far, 0.0)]);
         ends.reduce(|[near, far], [nearer, farther]| [smaller(near, nearer), larger(far, farther)])
@@ -109,10 +117,9 @@ impl FocusParameters {
     /// The factor on the colours of the context, where the surface has this share.
     #[inline(always)]
     fn around(&self, beyond: f32, share: f32) -> f32 {
-        let away = larger(beyond - HALO_MM, 0.0) / HALO_MM;
-        let weight = 1.0 - one_minus_power_of_two(-away * std::f32::consts::LOG2_E);
+        let weight = (halo_weight(beyond) - self.halo_rest) / (1.0 - self.halo_rest);
         let halo = 1.0 - self.halo * (1.0 - share) * weight;
-        if beyond < HALO_END_MM { halo } else { 1.0 }
+        if beyond < self.halo_end { halo } else { 1.0 }
     }
 
     /// How much occlusion may darken the surface, 0 to 1; 0 in lumen and wall.
@@ -120,6 +127,13 @@ impl FocusParameters {
     fn shade(&self, beyond: f32) -> f32 {
         self.shade * smooth_step((beyond - self.wall) / SHADE_FADE_MM)
     }
+}
+
+/// 1 up to [`HALO_MM`] from the wall, then falling exponentially.
+#[inline(always)]
+fn halo_weight(beyond: f32) -> f32 {
+    let away = larger(beyond - HALO_MM, 0.0) / HALO_MM;
+    1.0 - one_minus_power_of_two(-away * std::f32::consts::LOG2_E)
 }
 
 #[inline(always)]

@@ -11,12 +11,12 @@ struct FocusParameters {
     halo: f32,
     wall: f32,
     shade: f32,
-    padding: vec2f,
+    halo_end: f32,
+    halo_rest: f32,
 }
 
 // focus.rs explains these distances (mm).
 const HALO_MM: f32 = 6.0;
-const HALO_END_MM: f32 = 42.0;
 const SHADE_FADE_MM: f32 = 1.0;
 const LOG2_E: f32 = 1.4426950408889634;
 
@@ -37,8 +37,9 @@ fn smooth_step(x: f32) -> f32 {
 
 fn around(beyond_wall: f32, share: f32) -> f32 {
     let away = max(beyond_wall - HALO_MM, 0.0) / HALO_MM;
-    let halo = 1.0 - focus_parameters.halo * (1.0 - share) * exp2(-away * LOG2_E);
-    return select(1.0, halo, beyond_wall < HALO_END_MM);
+    let weight = (exp2(-away * LOG2_E) - focus_parameters.halo_rest) / (1.0 - focus_parameters.halo_rest);
+    let halo = 1.0 - focus_parameters.halo * (1.0 - share) * weight;
+    return select(1.0, halo, beyond_wall < focus_parameters.halo_end);
 }
 
 fn shade(beyond_wall: f32) -> f32 {

@@ -93,7 +93,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "stages/body": body::COLOR, body::EVERYWHERE, body::GLOW, body::LINE, body::GLOW_MM, consts::LOG2_E, ray::NONE;
         "stages/context": context::IN_FRONT;
         "stages/depth": depth::CHOSEN_GAP, depth::WALL_GAP;
-        "stages/focus": focus::HALO_MM, focus::HALO_END_MM, focus::SHADE_FADE_MM, consts::LOG2_E;
+        "stages/focus": focus::HALO_MM, focus::SHADE_FADE_MM, consts::LOG2_E;
         "stages/leap": depth::CHOSEN_GAP, depth::WALL_GAP, leap::SMALLEST_LEAP, leap::ALONG_VIEW, leap::MOST_DIAMETERS;
         "stages/occlusion": occlusion::FIRST_MM, occlusion::FULL_MM, occlusion::GAIN;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;

@@ -94,7 +94,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("math/levels", Span { first, end, level, first_chosen, end_chosen }),
         host!(
             "stages/focus",
-            FocusParameters { margin, per_fade, near, far, others, halo, wall, shade, padding }
+            FocusParameters { margin, per_fade, near, far, others, halo, wall, shade, halo_end, halo_rest }
         ),
         host!("stages/body", BodyParameters { size, first, per_pixel, per_line, padding }),
         host!("stages/occlusion", OcclusionParameters { blurs }),
