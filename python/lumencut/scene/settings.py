@@ -68,9 +68,8 @@ class Settings(CheckedSettings):
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
     edge_samples : int, 1 to 4, default 3
-        Average N × N samples per pixel at and next to silhouettes (count, 1 to 4). Lines and the edges
-        under them become smoother; only the picture changes. Needs the silhouette rule ``leap``. No effect
-        with ``samples`` above 1.
+        Average N × N samples per pixel at silhouettes of the rule ``leap``, unless ``samples`` exceeds 1
+        (count, 1 to 4).
     window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
@@ -89,8 +88,7 @@ class Settings(CheckedSettings):
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
     far_rim : float, 0 to 1, default 0.3
-        Darken the farther side of a depth jump where its silhouette has faded out (number, 0 to 1). Lumen
-        and wall keep their grey. Needs silhouettes with the rule ``leap`` and ``silhouette_reach``.
+        Darken the farther side of a depth jump where ``silhouette_reach`` hides its line (number, 0 to 1).
     occlusion : float, 0 to 1, default 0
         Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
