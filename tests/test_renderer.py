@@ -81,7 +81,7 @@ def test_fields_of_a_frame(size):
     assert frame.camera is camera
     assert list(bare.timings) == ["levels", "projection", "depth", "depth_filter"]
     stages = ["levels", "projection", "depth", "leap", "depth_filter", "focus", "far_rim", "surface", "silhouette"]
-    assert list(frame.timings)[:8] == stages
+    assert list(frame.timings)[:9] == stages
     assert list(frame.timings)[-2:] == ["context", "composite"]
     paper = renderer.render(camera, Settings.paper())
     stages = ["levels", "projection", "distance", "depth", "depth_filter", "surface", "silhouette"]

@@ -177,6 +177,12 @@ pub const CHOSEN_GAP: f32 = -1.0;
 /// The gap in a sheet in lumen and wall, minus the position along the vessel (mm).
 pub const WALL_GAP: f32 = -2.0;
 
+/// Whether a gap is [`CHOSEN_GAP`].
+#[inline(always)]
+pub(super) fn is_chosen(gap: f32) -> bool {
+    (gap < 0.0) & (gap > WALL_GAP)
+}
+
 /// The images that the stage writes. `sheet` and `blend` are empty if nothing reads them.
 #[derive(Debug)]
 pub struct DepthImages<'a> {

@@ -4,7 +4,7 @@
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
-use super::depth::{CHOSEN_GAP, Sheet, WALL_GAP};
+use super::depth::{Sheet, WALL_GAP, is_chosen};
 use super::{Image, Work};
 use crate::camera::Camera;
 use crate::error::Result;
@@ -214,7 +214,7 @@ impl Side {
             along: -gap,
             is_lumen: radius > 0.0,
             is_wall: gap < 0.0,
-            is_first: gap == CHOSEN_GAP,
+            is_first: is_chosen(gap),
         }
     }
 

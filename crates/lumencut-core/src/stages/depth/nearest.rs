@@ -2,7 +2,7 @@
 
 use super::blend::LevelBlend;
 use super::blended::Blended;
-use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface, WALL_GAP};
+use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface, WALL_GAP, is_chosen};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
 use crate::math::pieces::Envelope;
@@ -84,7 +84,7 @@ impl BlendedSheets {
                     ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
                 *radius = if is_outside_lumen { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];
-                let is_first = found.is_first[l] & ((vessel < 0) | (*gap == CHOSEN_GAP));
+                let is_first = found.is_first[l] & ((vessel < 0) | is_chosen(*gap));
                 let is_wall = (found.beyond_wall[l] <= 0.0) & ((vessel < 0) | (*gap < 0.0));
                 if is_first {
                     *gap = CHOSEN_GAP;
