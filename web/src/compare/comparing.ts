@@ -39,6 +39,7 @@ export async function compareVessels(isAnyPatient = false): Promise<void> {
       scans: inOrder(here.scan, there.scan),
       identities: inOrder(here.identity, there.identity),
       other_patient: isAnyPatient,
+      is_named: true,
       pictures: [],
     };
     const answer = await engine.ask('compare_scans', { scans: asked, size: FIRST_SIZE });
@@ -74,10 +75,9 @@ export async function saveComparison(kind: 'html' | 'csv' | 'json'): Promise<voi
   if (!found) {
     throw new Failure('picture', 'comparison', 'none', 'a vessel compared in both scans');
   }
-  const { asked } = found;
-  const scans = isScanNamed.value ? asked.scans : UNNAMED;
   const pictures = kind === 'html' ? await bothPictures(found.isOtherEarlier) : [];
-  const text = await engine.ask('comparison_file', { scans: { ...asked, scans, pictures }, kind });
+  const scans = { ...found.asked, is_named: isScanNamed.value, pictures };
+  const text = await engine.ask('comparison_file', { scans, kind });
   const scan = isScanNamed.value ? store.studyName.value : null;
   saveAs(new Blob([text], { type: TYPES[kind] }), fileName({ scan, content: 'comparison', ending: kind }));
 }
@@ -87,5 +87,4 @@ async function bothPictures(isEarlier: boolean): Promise<readonly string[]> {
   return ordered(isEarlier, pngOf(await composed('labels')), there);
 }
 
-const UNNAMED = ['earlier scan', 'later scan'] as const;
 const TYPES = { html: 'text/html', csv: 'text/csv', json: 'application/json' } as const;

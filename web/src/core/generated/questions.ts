@@ -908,6 +908,8 @@ export type ScansToCompare = {
   readonly identities: readonly [ScanIdentity, ScanIdentity];
   /** Whether scans of two patients are compared. */
   readonly other_patient: boolean;
+  /** Whether scans and patients are named. */
+  readonly is_named: boolean;
   /** Pictures of the earlier and the later scan for the report (PNG in base64); may be empty. */
   readonly pictures: ReadonlyArray<string>;
 };
