@@ -17,7 +17,7 @@ _Context: TypeAlias = "click.Context | None"
 
 
 #: The names of ``lumencut.scene.window.WINDOW_NAMES``; copied so that ``--help`` does not import numpy.
-WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent")
+WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac")
 
 
 class Parts(_Type):
