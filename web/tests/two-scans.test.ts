@@ -2,6 +2,7 @@
 import { beforeEach, expect, test } from 'vitest';
 import { LINKS, type OtherScan, type Seen } from '../src/core/linked';
 import type { Motion, Report, ScansToCompare } from '../src/core/messages';
+import { STANDARD } from '../src/core/planes';
 import * as store from '../src/state/store';
 import {
   across,
@@ -35,6 +36,8 @@ const OTHER: OtherScan = {
 const SEEN: Seen = {
   windows: [300, 900],
   'cross-hairs': { point: [1, 2, 3], line: 4, at: 10 },
+  slices: STANDARD,
+  layouts: 'four',
 };
 
 /** The other scan is the earlier one; its vessel begins 5 mm later, and ends at 20 mm. */
@@ -61,7 +64,7 @@ beforeEach(() => {
 
 test('a place moves with the scan, and the window is the same', () => {
   expect(across(SEEN, false)).toEqual({
-    windows: [300, 900],
+    ...SEEN,
     'cross-hairs': { point: [1, 2, 53], line: null, at: null },
   });
   expect(across(SEEN, true)['cross-hairs']?.point).toEqual([1, 2, -47]);
@@ -74,9 +77,9 @@ test('nothing is linked before the position of the other scan is known', () => {
 
 test('each part can be unlinked, and all at once', () => {
   toggleLink('windows');
-  expect(Object.keys(across(SEEN, false))).toEqual(['cross-hairs']);
+  expect(across(SEEN, false).windows).toBeUndefined();
   toggleLink('windows');
-  expect(Object.keys(across(SEEN, false)).length).toBe(2);
+  expect(Object.keys(across(SEEN, false)).length).toBe(4);
   linkAll(false);
   expect(across(SEEN, false)).toEqual({});
   linkAll(true);

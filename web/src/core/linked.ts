@@ -1,7 +1,7 @@
 /** What two pages with one scan each send each other, so that their views stay linked. */
-import type { Camera, LineId, Method, ScanIdentity, Settings, Vector, Window } from './messages';
+import type { Camera, LineId, Method, ScanIdentity, Settings, Slices, Vector, Window } from './messages';
 
-export const LINKS = ['cameras', 'cross-hairs', 'windows', 'looks'] as const;
+export const LINKS = ['cameras', 'cross-hairs', 'slices', 'windows', 'looks', 'layouts'] as const;
 export type Link = (typeof LINKS)[number];
 
 /** A position of the cross-hair; on a vessel also its line and the arc length (mm). */
@@ -21,7 +21,9 @@ export interface LinkedLook {
 export interface Seen {
   readonly cameras?: Camera;
   readonly 'cross-hairs'?: LinkedPlace;
+  readonly slices?: Slices;
   readonly windows?: Window;
+  readonly layouts?: string;
   readonly looks?: LinkedLook;
 }
 

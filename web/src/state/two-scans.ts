@@ -3,7 +3,7 @@ import { batch, computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import { LINKS, type Link, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
 import type { ComparedScans, LineId, Motion, ScansToCompare, Vector } from '../core/messages';
-import { cameraBy, inverseOf, movedBy } from '../core/motion';
+import { cameraBy, inverseOf, movedBy, slicesBy } from '../core/motion';
 import * as store from './store';
 
 /** Whether a second page is shown next to this one, and whether this page is the second one. */
@@ -11,7 +11,8 @@ export const isBeside = signal(false);
 export const isCompanion = signal(false);
 
 export const otherScan = signal<OtherScan | null>(null);
-export const links = signal<readonly Link[]>(LINKS);
+/** Layouts are free at first: tracing in one scan changes the layout. */
+export const links = signal<readonly Link[]>(LINKS.filter((link) => link !== 'layouts'));
 export const pairs = signal<readonly (readonly [LinkedPlace, LinkedPlace])[]>([]);
 /** The motion to the other scan by its position or by pairs; null until the engine has answered. */
 const placed = signal<Motion | null>(null);
@@ -152,10 +153,12 @@ export function across(seen: Seen, fromOther: boolean): Seen {
     return {};
   }
   const way = fromOther ? inverseOf(there) : there;
-  const { cameras, 'cross-hairs': place, windows, looks } = linkedParts(seen);
+  const { cameras, 'cross-hairs': place, slices, windows, looks, layouts } = linkedParts(seen);
   const isSameUnit = otherScan.value?.isHounsfield === store.report.value?.windows?.is_hounsfield;
   return {
     ...(looks && { looks }),
+    ...(layouts && { layouts }),
+    ...(slices && { slices: slicesBy(way, slices) }),
     ...(windows && isSameUnit && { windows }),
     ...(cameras && { cameras: cameraBy(way, cameras) }),
     ...(place && { 'cross-hairs': placeAcross(place, movedBy(way, place.point), fromOther) }),

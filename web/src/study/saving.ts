@@ -14,6 +14,7 @@ import type {
   SavedView,
 } from '../core/messages';
 import { STANDARD } from '../core/planes';
+import { settled } from '../core/slices';
 import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
 import type { Document } from '../state/document';
@@ -143,7 +144,7 @@ function look(view: SavedView): void {
     window: Array.isArray(window) ? [Number(window[0]), Number(window[1])] : null,
     layout: view.layout,
     crossHair: view.cross_hair,
-    slices: view.slices ?? STANDARD,
+    slices: view.slices ? settled(view.slices) : STANDARD,
   });
 }
 
