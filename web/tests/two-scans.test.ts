@@ -9,9 +9,15 @@ import {
   atAcross,
   beginScans,
   comparison,
+  addPair,
   endComparison,
+  isOtherEarlier,
+  keepComparison,
   linkAll,
   links,
+  pairs,
+  savedComparison,
+  setOtherEarlier,
   setPlaced,
   takeOther,
   toggleLink,
@@ -27,6 +33,7 @@ const shifted = (z: number): Motion => ({ rotation: IDENTITY, shift: [0, 0, z] }
 const OTHER: OtherScan = {
   count: 1,
   name: 'earlier',
+  grid: { size: [2, 3, 4], world_from_index: [[1, 0, 0, 0]] },
   corners: [],
   lines: [7],
   isHounsfield: true,
@@ -114,4 +121,25 @@ test('a comparison ends with one of its vessels, or with one of its scans', () =
   expect(comparison.value).not.toBeNull();
   takeOther({ ...OTHER, count: 2 });
   expect(comparison.value).toBeNull();
+});
+
+test('a session keeps order and pairs until its other scan is open again', () => {
+  setOtherEarlier(false);
+  addPair([1, 2, 3], [4, 5, 6]);
+  const saved = savedComparison() ?? undefined;
+  expect(saved).toEqual({ scan: OTHER.grid, is_earlier: false, pairs_mm: [[[1, 2, 3], [4, 5, 6]]] });
+  takeOther(null);
+  setOtherEarlier(true);
+  expect(keepComparison(structuredClone(saved))).toBe(false);
+  expect(savedComparison()).toEqual(saved);
+  takeOther({ ...OTHER, count: 2, grid: { ...OTHER.grid, size: [9, 9, 9] } });
+  expect([isOtherEarlier.value, pairs.value]).toEqual([true, []]);
+  takeOther({ ...OTHER, count: 3 });
+  expect([isOtherEarlier.value, pairs.value]).toEqual([false, saved?.pairs_mm]);
+  expect(keepComparison(undefined)).toBe(true);
+  takeOther(null);
+  expect(savedComparison()).toBeNull();
+  keepComparison(saved);
+  store.report.value = { volume: {}, vessels: [], windows: null } as unknown as Report;
+  expect(savedComparison()).toBeNull();
 });

@@ -16,7 +16,7 @@ import {
   type VesselComparison,
 } from '../state/two-scans';
 import { engine } from '../worker/engine';
-import { measuredHere, placeHere } from './measured';
+import { measuredHere, placeAt } from './measured';
 import { otherPage } from './other-page';
 
 const FIRST_SIZE: Pair = [1000, 260];
@@ -28,9 +28,12 @@ export async function compareVessels(isAnyPatient = false): Promise<void> {
     const [here, there] = await Promise.all([measuredHere(), otherPage().measured()]);
     const isEarlier = isOtherEarlier.value;
     const inOrder = <T>(own: T, other: T): [T, T] => ordered(isEarlier, own, other);
+    const places = await Promise.all(
+      pairs.value.map((pair) => Promise.all([placeAt(pair[0]), otherPage().placeAt(pair[1])])),
+    );
     const asked: ScansToCompare = {
       records: inOrder(here.record, there.record),
-      pairs: pairs.value.flatMap((pair) => {
+      pairs: places.flatMap((pair) => {
         const [a, b] = pair.map(({ at }) => at);
         const areOnVessels = pair[0].line === here.line && pair[1].line === there.line;
         return areOnVessels && a != null && b != null ? [inOrder(a, b)] : [];
@@ -63,7 +66,7 @@ export async function drawComparison(found: VesselComparison, size: Pair): Promi
 
 /** Records that the cross-hairs of both scans are at places that belong together. */
 export async function pairPlaces(): Promise<void> {
-  const [here, there] = await Promise.all([placeHere(), otherPage().place()]);
+  const [here, there] = [store.crossHair.value?.point, await otherPage().crossHair()];
   if (here && there) {
     addPair(here, there);
   }

@@ -1,8 +1,11 @@
 /** What two pages with one scan each send each other, so that their views stay linked. */
-import type { Camera, LineId, Method, ScanIdentity, Settings, Slices, Vector, Window } from './messages';
+import type { Camera, LineId, Method, SavedScan, ScanIdentity, Settings, Slices, Vector, VolumeReport, Window } from './messages';
 
 export const LINKS = ['cameras', 'cross-hairs', 'slices', 'windows', 'looks', 'layouts'] as const;
 export type Link = (typeof LINKS)[number];
+
+/** The grid of a scan, by which it is recognised. */
+export const gridOf = ({ size, world_from_index }: VolumeReport): SavedScan => ({ size, world_from_index });
 
 /** A position of the cross-hair; on a vessel also its line and the arc length (mm). */
 export interface LinkedPlace {
@@ -31,6 +34,7 @@ export interface OtherScan {
   /** Counts the scans that were opened in that page. */
   readonly count: number;
   readonly name: string;
+  readonly grid: SavedScan;
   readonly corners: readonly Vector[];
   readonly lines: readonly LineId[];
   readonly isHounsfield: boolean;

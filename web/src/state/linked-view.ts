@@ -1,7 +1,7 @@
 /** The view as pages with two scans exchange it. Only the page that the user operates sends its view. */
 import { batch, computed, effect } from '@preact/signals';
 import { resized } from '../core/camera';
-import type { LinkedPlace, OtherScan, Seen } from '../core/linked';
+import { gridOf, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
 import type { VolumeReport } from '../core/messages';
 import { settled } from '../core/slices';
 import { setWindow } from './actions';
@@ -121,6 +121,7 @@ export function scanNow(): OtherScan | null {
     ? {
         count,
         name: store.studyName.value,
+        grid: gridOf(report.volume),
         corners: report.volume.corners,
         lines: (report.vessels ?? []).map(({ line }) => line),
         isHounsfield: report.windows?.is_hounsfield ?? false,

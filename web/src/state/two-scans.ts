@@ -2,7 +2,15 @@
 import { batch, computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import { LINKS, type Link, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
-import type { ComparedScans, LineId, Motion, ScansToCompare, Vector } from '../core/messages';
+import type {
+  ComparedScans,
+  LineId,
+  Motion,
+  SavedComparison,
+  ScansToCompare,
+  Vector,
+  VolumeReport,
+} from '../core/messages';
 import { cameraBy, inverseOf, movedBy, slicesBy } from '../core/motion';
 import * as store from './store';
 
@@ -13,7 +21,8 @@ export const isCompanion = signal(false);
 export const otherScan = signal<OtherScan | null>(null);
 /** Layouts are free at first: tracing in one scan changes the layout. */
 export const links = signal<readonly Link[]>(LINKS.filter((link) => link !== 'layouts'));
-export const pairs = signal<readonly (readonly [LinkedPlace, LinkedPlace])[]>([]);
+/** Places in this scan and in the other one that belong together. */
+export const pairs = signal<readonly (readonly [Vector, Vector])[]>([]);
 /** The motion to the other scan by its position or by pairs; null until the engine has answered. */
 const placed = signal<Motion | null>(null);
 export const isOtherEarlier = signal(true);
@@ -63,6 +72,7 @@ export function takeOther(scan: OtherScan | null): void {
     otherScan.value = scan;
     if (isNew) {
       beginScans();
+      takeKept();
     }
   });
 }
@@ -92,7 +102,7 @@ export function linkAll(are: boolean): void {
   links.value = are ? LINKS : [];
 }
 
-export function addPair(here: LinkedPlace, there: LinkedPlace): void {
+export function addPair(here: Vector, there: Vector): void {
   pairs.value = [...pairs.value, [here, there]];
 }
 
@@ -109,6 +119,43 @@ export function setOtherEarlier(is: boolean): void {
     isOtherEarlier.value = is;
     forgetComparison();
   });
+}
+
+interface Kept {
+  readonly volume: VolumeReport | null | undefined;
+  readonly saved: SavedComparison;
+}
+
+/** The comparison in the session of the open scan. */
+let kept: Kept | null = null;
+
+/** Takes the comparison of an opened session as soon as its other scan is open. Returns false if it waits for that scan. */
+export function keepComparison(saved: SavedComparison | undefined): boolean {
+  kept = saved ? { volume: store.report.value?.volume, saved } : null;
+  return !saved || takeKept();
+}
+
+const keptHere = (): SavedComparison | null =>
+  kept && kept.volume === store.report.value?.volume ? kept.saved : null;
+
+function takeKept(): boolean {
+  const saved = keptHere();
+  if (!saved || JSON.stringify(otherScan.value?.grid) !== JSON.stringify(saved.scan)) {
+    return false;
+  }
+  batch(() => {
+    setOtherEarlier(saved.is_earlier);
+    pairs.value = saved.pairs_mm;
+  });
+  return true;
+}
+
+/** What a session keeps of the comparison with another scan; null without one. */
+export function savedComparison(): SavedComparison | null {
+  const other = otherScan.value;
+  return other
+    ? { scan: other.grid, is_earlier: isOtherEarlier.value, pairs_mm: pairs.value }
+    : keptHere();
 }
 
 export function beginComparison(): void {

@@ -20,10 +20,12 @@ import { recover } from '../state/device';
 import type { Document } from '../state/document';
 import { document_ } from '../state/history';
 import { contents } from '../state/lines';
+import { showMessage } from '../state/message';
 import { showView } from '../state/opened';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import { beginDocument, pickedId, tree } from '../state/shown';
 import * as store from '../state/store';
+import { keepComparison, savedComparison } from '../state/two-scans';
 import { EngineClient, engine } from '../worker/engine';
 import { cameraOf, contentOf, type DisplayState, documentOf } from './session-content';
 
@@ -78,6 +80,7 @@ function displayState(): DisplayState | null {
       layout: store.layout.value,
       crossHair: store.crossHair.value?.point ?? null,
       slices: store.slices.value,
+      compared: savedComparison(),
       picked: id === null ? null : { id, at: store.pickedPlace.value },
     }
   );
@@ -90,7 +93,7 @@ export async function openSession({ file }: GivenFile): Promise<void> {
     { name: file.name },
     { bytes: new Uint8Array(await file.arrayBuffer()) },
   );
-  const { view } = content.session;
+  const { view, compared } = content.session;
   const document = documentOf(content);
   batch(() => {
     beginDocument(document);
@@ -99,6 +102,9 @@ export async function openSession({ file }: GivenFile): Promise<void> {
       look(view);
     }
   });
+  if (!keepComparison(compared)) {
+    showMessage('This session compares the scan with another one: open that one by the layout "Two scans …".');
+  }
   if (view) {
     onceShown(document, () => point(view, document));
   }

@@ -834,6 +834,18 @@ export type SavedSession = {
   readonly one_millimetre_assumed?: boolean;
   /** Whether the context hides bone; exists since version 2. */
   readonly bone_hidden?: boolean;
+  /** The scan that the reader compares with this one; exists since version 2. */
+  readonly compared?: SavedComparison;
+};
+
+/** A scan that the reader compares with the scan of the session. */
+export type SavedComparison = {
+  /** Its grid, by which it is recognised. */
+  readonly scan: SavedScan;
+  /** Whether it is the earlier one. */
+  readonly is_earlier: boolean;
+  /** Places in the session's scan and in this one that belong together (mm, LPS). */
+  readonly pairs_mm: ReadonlyArray<readonly [Vector, Vector]>;
 };
 
 /** A sphere that traced vessels must not enter. */
