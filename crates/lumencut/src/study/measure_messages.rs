@@ -85,7 +85,7 @@ pub(crate) struct ProfileMessage {
     outer: Vec<Option<String>>,
     /// The longest stretch with a flap, in one sentence.
     flap_stretch: Option<String>,
-    /// Areas of the measured lumen, of the other one behind a flap, and of both, in words.
+    /// Areas of the line's lumen, of the other one behind a flap, and of both, in words.
     lumens: Vec<Option<[String; 3]>>,
 }
 

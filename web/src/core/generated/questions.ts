@@ -615,7 +615,7 @@ export type Profile = {
   readonly outer: ReadonlyArray<string | null>;
   /** The longest stretch with a flap, in one sentence. */
   readonly flap_stretch: string | null;
-  /** Areas of the measured lumen, of the other one behind a flap, and of both, in words. */
+  /** Areas of the line's lumen, of the other one behind a flap, and of both, in words. */
   readonly lumens: ReadonlyArray<readonly [string, string, string] | null>;
 };
 
