@@ -274,7 +274,7 @@ test('without cross-origin isolation one thread computes, and the page says so',
       await route.fulfill({ response: await route.fetch(), headers });
     },
   );
-  await viewer.page.goto('./?phantom=stenosis&device=cpu');
+  await viewer.page.goto('./?phantom=aorta&device=cpu');
   await expect(viewer.device).toHaveText('CPU: 1 thread, because the page is not cross-origin isolated');
   await viewer.rest();
   expect(isEmpty(await viewer.pixels())).toBe(false);
@@ -282,7 +282,22 @@ test('without cross-origin isolation one thread computes, and the page says so',
   await viewer.drag([0.5, 0.5], [30, 10]);
   await viewer.rest();
   expect(await viewer.camera()).not.toEqual(before);
+  await viewer.press('v');
+  await viewer.page.getByRole('button', { name: 'Find all vessels' }).click();
+  await viewer.page.getByRole('button', { name: 'Cancel' }).click();
+  const running = viewer.page.getByText('without shared memory it cannot be stopped');
+  await expect(running).toBeVisible();
+  await expect(running).toHaveCount(0);
+  await expect(viewer.page.getByRole('button', { name: 'Undo' })).toBeDisabled();
   viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('an engine that does not load is reported', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?device=cpu');
+  await viewer.page.route('**/assets/engine.worker-*.js', (route) => route.abort());
+  await viewer.page.goto('./?device=cpu');
+  await expect(viewer.problem).toContainText('Found a worker that did not load');
   await viewer.close();
 });
 
