@@ -2,8 +2,8 @@
 import { expect, test } from 'vitest';
 import type { Seen } from '../src/core/linked';
 import type { Camera } from '../src/core/messages';
-import { followSeen, scanNow, seenNow, setOperated, takeSeen } from '../src/state/linked-view';
 import { STANDARD } from '../src/core/planes';
+import { followSeen, scanNow, seenNow, setOperated, takeSeen } from '../src/state/linked-view';
 import * as store from '../src/state/store';
 
 const CAMERA: Camera = {

@@ -38,6 +38,13 @@ test('moved planes show the same part of the body, and come back as the standard
   expect(there.slab).toEqual([20, 'max']);
   const back = slicesBy(inverseOf(MOTION), { ...there, slab: null });
   expect(back).toBe(STANDARD);
-  const unmoved: Motion = { ...inverseOf(MOTION), rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] };
+  const unmoved: Motion = {
+    ...inverseOf(MOTION),
+    rotation: [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ],
+  };
   expect(slicesBy(unmoved, structuredClone(STANDARD))).toBe(STANDARD);
 });

@@ -6,10 +6,10 @@ import { STANDARD } from '../src/core/planes';
 import * as store from '../src/state/store';
 import {
   across,
+  addPair,
   atAcross,
   beginScans,
   comparison,
-  addPair,
   endComparison,
   isOtherEarlier,
   keepComparison,
@@ -127,7 +127,16 @@ test('a session keeps order and pairs until its other scan is open again', () =>
   setOtherEarlier(false);
   addPair([1, 2, 3], [4, 5, 6]);
   const saved = savedComparison() ?? undefined;
-  expect(saved).toEqual({ scan: OTHER.grid, is_earlier: false, pairs_mm: [[[1, 2, 3], [4, 5, 6]]] });
+  expect(saved).toEqual({
+    scan: OTHER.grid,
+    is_earlier: false,
+    pairs_mm: [
+      [
+        [1, 2, 3],
+        [4, 5, 6],
+      ],
+    ],
+  });
   takeOther(null);
   setOtherEarlier(true);
   expect(keepComparison(structuredClone(saved))).toBe(false);

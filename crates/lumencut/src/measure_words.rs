@@ -161,7 +161,11 @@ pub fn of_lumens_at(profile: &Profile, n: usize) -> Option<[String; 3]> {
         .map(|[area, unsure]| format!("{} ± {} mm²", fixed(area, 0), fixed(unsure, 0)));
     let is_seen = profile.flap[n] == Flap::Seen;
     is_seen.then(|| {
-        [format!("lumen of the line, up to the flap, {own}"), format!("other lumen next to it {other}"), format!("both {both}")]
+        [
+            format!("lumen of the line, up to the flap, {own}"),
+            format!("other lumen next to it {other}"),
+            format!("both {both}"),
+        ]
     })
 }
 

@@ -81,7 +81,10 @@ mod tests {
         assert_eq!(error.found, "PatientID 'A1' and PatientID 'B2' of 'Ward'");
         assert_eq!(error.mended_by, Some(Mend::OtherPatient));
         let accepted = |is_named| doubts(&scans, true, is_named).expect("accepted");
-        assert_eq!(accepted(true), ["the scans are of two patients: PatientID 'A1' and PatientID 'B2' of 'Ward'"]);
+        assert_eq!(
+            accepted(true),
+            ["the scans are of two patients: PatientID 'A1' and PatientID 'B2' of 'Ward'"]
+        );
         assert_eq!(accepted(false), ["the scans are of two patients"]);
     }
 

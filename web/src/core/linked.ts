@@ -1,5 +1,16 @@
 /** What two pages with one scan each send each other, so that their views stay linked. */
-import type { Camera, LineId, Method, SavedScan, ScanIdentity, Settings, Slices, Vector, VolumeReport, Window } from './messages';
+import type {
+  Camera,
+  LineId,
+  Method,
+  SavedScan,
+  ScanIdentity,
+  Settings,
+  Slices,
+  Vector,
+  VolumeReport,
+  Window,
+} from './messages';
 
 export const LINKS = ['cameras', 'cross-hairs', 'slices', 'windows', 'looks', 'layouts'] as const;
 export type Link = (typeof LINKS)[number];

@@ -61,14 +61,7 @@ export function followSeen(send: (seen: Seen) => void): () => void {
 }
 
 /** Shows what the user sees in the other page. Panes keep their sizes, and pixels their size in mm. */
-export function takeSeen({
-  cameras,
-  slices,
-  windows,
-  layouts,
-  looks,
-  'cross-hairs': place,
-}: Seen): void {
+export function takeSeen({ cameras, slices, windows, layouts, looks, 'cross-hairs': place }: Seen): void {
   setOperated(false);
   const camera = store.camera.value;
   batch(() => {

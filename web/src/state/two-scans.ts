@@ -153,9 +153,7 @@ function takeKept(): boolean {
 /** What a session keeps of the comparison with another scan; null without one. */
 export function savedComparison(): SavedComparison | null {
   const other = otherScan.value;
-  return other
-    ? { scan: other.grid, is_earlier: isOtherEarlier.value, pairs_mm: pairs.value }
-    : keptHere();
+  return other ? { scan: other.grid, is_earlier: isOtherEarlier.value, pairs_mm: pairs.value } : keptHere();
 }
 
 export function beginComparison(): void {

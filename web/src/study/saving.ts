@@ -103,7 +103,9 @@ export async function openSession({ file }: GivenFile): Promise<void> {
     }
   });
   if (!keepComparison(compared)) {
-    showMessage('This session compares the scan with another one: open that one by the layout "Two scans …".');
+    showMessage(
+      'This session compares the scan with another one: open that one by the layout "Two scans …".',
+    );
   }
   if (view) {
     onceShown(document, () => point(view, document));

@@ -104,6 +104,9 @@ fn at_a_flap_the_words_state_which_lumen_is_measured() {
     profile.area_own_lumen[40] = [120.0, 3.0];
     profile.area_other_lumen[40] = [300.0, 4.0];
     let words = of_lumens_at(&profile, 40).expect("two lumens");
-    assert_eq!(words[..2], ["lumen of the line, up to the flap, 120 ± 3 mm²", "other lumen next to it 300 ± 4 mm²"]);
+    assert_eq!(
+        words[..2],
+        ["lumen of the line, up to the flap, 120 ± 3 mm²", "other lumen next to it 300 ± 4 mm²"]
+    );
     assert!(words[2].starts_with("both 420 ± "), "{words:?}");
 }
