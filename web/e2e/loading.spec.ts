@@ -261,7 +261,6 @@ test('opening a phantom 50 times does not increase the memory', { tag: '@long' }
   await viewer.close();
 });
 
-/** Opens a phantom in a page whose server sends no headers for cross-origin isolation. */
 async function openedAlone(browser: Browser, phantom: string): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?device=cpu');
   await viewer.page.route(

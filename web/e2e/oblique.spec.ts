@@ -209,7 +209,6 @@ test('a slab shows its largest, mean or smallest values, and a session keeps pla
   await expect(title(viewer, 'coronal')).toHaveText('Coronal');
   await choose(viewer, fileOf('saved.mrk.json', session));
   await expect(title(viewer, 'coronal')).toHaveText('Coronal, oblique, mean 20 mm');
-  // Planes from a file that are standard ones are called so.
   await expect(title(viewer, 'axial')).toHaveText('Axial, mean 20 mm');
   const damaged = session.toString('utf-8').replace('"slab":[20', '"slab":[-20');
   await choose(viewer, fileOf('damaged.mrk.json', Buffer.from(damaged)));

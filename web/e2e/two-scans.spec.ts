@@ -106,7 +106,6 @@ test('unlinked parts are free, and follow again when they are linked', async ({ 
   const windowThere = other(viewer).getByTestId('window');
   await viewer.press('3');
   await expect(windowThere).toHaveText((await viewer.window.textContent()) ?? '');
-  // Layouts are free at first.
   for (const isLinked of ['true', 'false', 'true']) {
     await button(viewer, 'Link all').click();
     for (const name of ['Cameras', 'Cross-hairs', 'Slices', 'Windows', 'Looks', 'Layouts']) {

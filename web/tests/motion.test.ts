@@ -5,7 +5,6 @@ import type { Camera, Motion, Vector } from '../src/core/messages';
 import { cameraBy, inverseOf, movedBy, slicesBy } from '../src/core/motion';
 import { STANDARD } from '../src/core/planes';
 
-/** A quarter turn about z, then a shift. */
 const MOTION: Motion = {
   rotation: [
     [0, -1, 0],

@@ -9,7 +9,6 @@ const PICTURE: Picture = { size: SIZE, bytes: new Uint8ClampedArray(16) };
 
 const soon = () => new Promise((resolve) => setTimeout(resolve, 0));
 
-/** A pane, and wishes whose answers the test gives in any order. */
 function pane() {
   const log: string[] = [];
   const requests = new PictureRequests({

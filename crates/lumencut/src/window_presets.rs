@@ -108,7 +108,6 @@ pub const WINDOW_PRESETS: [WindowPreset; 9] = [
     from_data("mra", "MR angiography", DataWindow::Mra),
     // This window separates the struts of a stent from the lumen inside.
     fixed("stent", "Stent", 400.0, 1500.0),
-    // Thrombus is dark grey, fat darker, and lumen not yet white.
     fixed("sac", "Aneurysm sac", 150.0, 600.0),
 ];
 

@@ -8,7 +8,6 @@ import { profileOfLine } from '../state/profiles';
 import { report, scanStudy, studyName } from '../state/store';
 import { engine } from '../worker/engine';
 
-/** What a file without a DICOM header states. */
 const UNSTATED: ScanIdentity = { patient: '', issuer: '', modality: '' };
 
 /** Measures the picked vessel. Throws `Failure` without one, or without lengths in mm. */
@@ -45,7 +44,6 @@ export async function measuredHere(): Promise<MeasuredScan> {
   };
 }
 
-/** A place; on a vessel with its line and arc length. */
 export async function placeAt(point: Vector): Promise<LinkedPlace> {
   const { vessel, arc_length: at } = await engine.ask('at', point);
   return { point, line: report.value?.vessels?.[vessel ?? -1]?.line ?? null, at };

@@ -15,7 +15,6 @@ import type {
 export const LINKS = ['cameras', 'cross-hairs', 'slices', 'windows', 'looks', 'layouts'] as const;
 export type Link = (typeof LINKS)[number];
 
-/** The grid of a scan, by which it is recognised. */
 export const gridOf = ({ size, world_from_index }: VolumeReport): SavedScan => ({ size, world_from_index });
 
 /** A position of the cross-hair; on a vessel also its line and the arc length (mm). */

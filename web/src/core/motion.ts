@@ -28,7 +28,6 @@ export const cameraBy = (motion: Motion, camera: Camera): Camera => ({
   up: turnedBy(motion, camera.up),
 });
 
-/** The planes that show in the other scan what `slices` show in this one. */
 export function slicesBy(motion: Motion, { axial, coronal, sagittal, slab }: Slices): Slices {
   const turn = ({ right, down }: SliceAxes): SliceAxes => ({
     right: turnedBy(motion, right),

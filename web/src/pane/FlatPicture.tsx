@@ -61,7 +61,6 @@ export function FlatPicture({
     fail: recover,
   });
 
-  // When the view is closed, its pending requests are dropped.
   useEffect(() => () => requests.current?.want(null), []);
 
   useEffect(() => {

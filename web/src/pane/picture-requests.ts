@@ -6,7 +6,6 @@ import type { Pair, Picture } from '../core/messages';
 export interface Wish {
   readonly ask: (size: Pair) => Promise<Picture>;
   readonly size: Pair;
-  /** What the page states about this picture. */
   readonly label: string;
 }
 

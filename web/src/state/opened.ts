@@ -93,7 +93,6 @@ export function showView({ camera, method, settings, window, layout, crossHair, 
   });
 }
 
-/** Shows a layout; another name leaves the layout. */
 export function showLayoutNamed(name: string): void {
   store.layout.value = store.LAYOUTS.find((layout) => layout === name) ?? store.layout.value;
 }

@@ -21,7 +21,6 @@ export const isCompanion = signal(false);
 export const otherScan = signal<OtherScan | null>(null);
 /** Layouts are free at first: tracing in one scan changes the layout. */
 export const links = signal<readonly Link[]>(LINKS.filter((link) => link !== 'layouts'));
-/** Places in this scan and in the other one that belong together. */
 export const pairs = signal<readonly (readonly [Vector, Vector])[]>([]);
 /** The motion to the other scan by its position or by pairs; null until the engine has answered. */
 const placed = signal<Motion | null>(null);
@@ -126,7 +125,6 @@ interface Kept {
   readonly saved: SavedComparison;
 }
 
-/** The comparison in the session of the open scan. */
 let kept: Kept | null = null;
 
 /** Takes the comparison of an opened session as soon as its other scan is open. Returns false if it waits for that scan. */
@@ -150,7 +148,6 @@ function takeKept(): boolean {
   return true;
 }
 
-/** What a session keeps of the comparison with another scan; null without one. */
 export function savedComparison(): SavedComparison | null {
   const other = otherScan.value;
   return other ? { scan: other.grid, is_earlier: isOtherEarlier.value, pairs_mm: pairs.value } : keptHere();

@@ -17,7 +17,6 @@ type Vector = [f64; 3];
 /// Scans that share at least this part of the smaller one are taken to have the same coordinates.
 const SHARED: f64 = 0.5;
 
-/// What the scans are called if they are not named.
 const UNNAMED: [&str; 2] = ["earlier scan", "later scan"];
 
 /// A rigid motion (mm, LPS): a point times `rotation`, plus `shift`.
