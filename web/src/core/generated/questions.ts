@@ -764,6 +764,16 @@ export type SavedCamera = {
   readonly pixel_spacing: number;
 };
 
+/** A scan that the reader compares with the scan of the session. */
+export type SavedComparison = {
+  /** Its grid, by which it is recognised. */
+  readonly scan: SavedScan;
+  /** Whether it is the earlier one. */
+  readonly is_earlier: boolean;
+  /** Places in the session's scan and in this one that belong together (mm, LPS). */
+  readonly pairs_mm: ReadonlyArray<readonly [Vector, Vector]>;
+};
+
 /** Marks that the reader set on a vessel; arc lengths and diameters are in mm. */
 export type SavedMarks = {
   /** Arc length of a stenosis. */
@@ -836,16 +846,6 @@ export type SavedSession = {
   readonly bone_hidden?: boolean;
   /** The scan that the reader compares with this one; exists since version 2. */
   readonly compared?: SavedComparison;
-};
-
-/** A scan that the reader compares with the scan of the session. */
-export type SavedComparison = {
-  /** Its grid, by which it is recognised. */
-  readonly scan: SavedScan;
-  /** Whether it is the earlier one. */
-  readonly is_earlier: boolean;
-  /** Places in the session's scan and in this one that belong together (mm, LPS). */
-  readonly pairs_mm: ReadonlyArray<readonly [Vector, Vector]>;
 };
 
 /** A sphere that traced vessels must not enter. */
