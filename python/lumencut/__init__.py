@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from lumencut.reformations.unrolled_wall import LumenMap, Ostium
     from lumencut.reformations.untangled_tree import UntangledTree
     from lumencut.reformations.untangling import untangled
+    from lumencut.reports.vessel_sheet import sheet
     from lumencut.scene.camera import VIEWS, Camera
     from lumencut.scene.device import Device, devices
     from lumencut.scene.focus import Focus
@@ -76,6 +77,7 @@ if TYPE_CHECKING:
     from lumencut.scene.vessel_gap import Gap
     from lumencut.scene.vessel_tree import VesselTree
     from lumencut.scene.volume import Volume
+    from lumencut.scene.volume_pyramid import VolumePyramid
     from lumencut.scene.window import Opacity, Window
     from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.tracing.mask_tracing import trace_mask
@@ -147,7 +149,9 @@ _HOME = {
     "scene.vessel": ("Vessel",),
     "scene.vessel_gap": ("Gap",),
     "scene.vessel_tree": ("VesselTree",),
+    "reports.vessel_sheet": ("sheet",),
     "scene.volume": ("Volume",),
+    "scene.volume_pyramid": ("VolumePyramid",),
     "scene.window": ("Opacity", "Window"),
     "tracing.centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "tracing.mask_tracing": ("trace_mask",),
@@ -215,6 +219,7 @@ __all__ = [
     "VesselTreeError",
     "Volume",
     "VolumeError",
+    "VolumePyramid",
     "Window",
     "__version__",
     "batch",
@@ -240,6 +245,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "sheet",
     "show",
     "spiral",
     "straightened_volume",

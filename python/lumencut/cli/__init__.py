@@ -13,6 +13,7 @@ from lumencut.cli.batch import batch
 from lumencut.cli.bids import bids
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.compare_scans import compare_scans
+from lumencut.cli.convert import convert
 from lumencut.cli.demo import demo
 from lumencut.cli.doctor import doctor
 from lumencut.cli.evaluate import evaluate
@@ -27,6 +28,7 @@ from lumencut.cli.reformation_table import COMMANDS
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
 from lumencut.cli.settings import settings
+from lumencut.cli.sheet import sheet
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
@@ -75,11 +77,13 @@ ALL_COMMANDS = (
     turntable,
     compare_methods,
     *COMMANDS,
+    sheet,
     evaluate,
     figures,
     reading_study,
     reading_results,
     info,
+    convert,
     trace,
     measure,
     compare_scans,

@@ -18,6 +18,7 @@ from lumencut.scene.window import Opacity, Window
 DistanceRuleName: TypeAlias = Literal["local", "whole curve"]
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
+TreeName: TypeAlias = Literal["hidden", "wireframe"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 ContextFromName: TypeAlias = Literal["cut", "whole"]
 
@@ -85,6 +86,10 @@ class Settings(CheckedSettings):
         as in the paper; far from vessels they only mark borders of zones.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
+    tree : {"hidden", "wireframe"}, default "hidden"
+        Vessel walls over the picture (name): ``hidden``, or ``wireframe`` for rings across and lines along
+        the vessels. Wires show the radii of the centerlines, ``unknown_radius`` where there is none; only
+        the picture has them.
     background : (int, int, int, int), default (0, 0, 0, 255)
         Colour of pixels that show nothing else. Red, green, blue and opacity.
     slab : Slab, optional
@@ -160,6 +165,7 @@ class Settings(CheckedSettings):
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
+    tree: TreeName = "hidden"
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
     focus: Focus | None = None

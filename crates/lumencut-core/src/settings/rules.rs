@@ -29,6 +29,20 @@ impl Named for DistanceRule {
         &[("local", Self::Local), ("whole curve", Self::WholeCurve)];
 }
 
+/// How a picture shows the walls of the vessel tree, besides cutting them open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TreeShown {
+    /// Not at all.
+    Hidden,
+    /// As wires over the picture: rings across the vessels and lines along them.
+    Wireframe,
+}
+
+impl Named for TreeShown {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("hidden", Self::Hidden), ("wireframe", Self::Wireframe)];
+}
+
 /// The rule that decides where silhouettes are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SilhouetteRule {

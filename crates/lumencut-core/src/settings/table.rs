@@ -4,7 +4,7 @@
 use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
 use super::focus::Focus;
-use super::rules::{DistanceRule, LevelChoice, SilhouetteRule};
+use super::rules::{DistanceRule, LevelChoice, SilhouetteRule, TreeShown};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
@@ -112,6 +112,11 @@ settings! {
         ///
         /// Red, green and blue.
         silhouette_color: [u8; 3] = [255, 220, 0];
+
+        /// Vessel walls over the picture (name): `hidden`, or `wireframe` for rings across and lines along the vessels.
+        ///
+        /// Wires show the radii of the centerlines, `unknown_radius` where there is none; only the picture has them.
+        tree: TreeShown = TreeShown::Hidden;
 
         /// Colour of pixels that show nothing else.
         ///
