@@ -27,7 +27,7 @@ pub struct Frame {
     pub blend: Vec<Blend>,
     /// Bits that mark depth jumps between neighbouring pixels ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if both are fully shown.
+    /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if all is shown.
     pub focus: Vec<Shares>,
     /// Distance to the nearest centerline in the image plane (mm).
     pub distance: Vec<f32>,

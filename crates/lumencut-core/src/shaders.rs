@@ -54,6 +54,7 @@ pub const SHADERS: &[Shader] = shaders![
     "math/walls",
     "math/whole_curve",
     "math/window",
+    "stages/body",
     "stages/composite",
     "stages/context",
     "stages/depth",
@@ -61,6 +62,7 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/distance",
     "stages/focus",
     "stages/leap",
+    "stages/occlusion",
     "stages/silhouette",
     "stages/surface",
 ];

@@ -177,6 +177,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("REORDERED", lumencut::reordering::REORDERED)?;
     module.add_function(wrap_pyfunction!(centerlines::line_doubts, module)?)?;
     module.add_function(wrap_pyfunction!(placement::better_place, module)?)?;
+    module.add_function(wrap_pyfunction!(volume::cut_off_note, module)?)?;
     module.add_function(wrap_pyfunction!(volume::doubted_grid, module)?)?;
     module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;
     module.add_function(wrap_pyfunction!(centerlines::is_session_file, module)?)?;

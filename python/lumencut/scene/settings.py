@@ -84,6 +84,8 @@ class Settings(CheckedSettings):
         Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
+    occlusion : float, 0 to 1, default 0
+        Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     tree : {"hidden", "wireframe"}, default "hidden"
@@ -135,6 +137,10 @@ class Settings(CheckedSettings):
         whole.
     context_strength : float, 0 to 1, default 1
         Brightness of the context: factor of its colours (number, 0 to 1).
+    context_halo : float, 0 to 1, default 0
+        Darken the context around a ``focus`` (number, 0 to 1).
+    context_body : bool, default False
+        Outline the body if the scan shows air around it; not in previews.
     context_preview : bool, default False
         Trace one ray per 6 × 6 pixels: faster and coarser.
 
@@ -164,6 +170,7 @@ class Settings(CheckedSettings):
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
+    occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     tree: TreeName = "hidden"
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
@@ -179,4 +186,6 @@ class Settings(CheckedSettings):
     context_shading: bool = False
     context_from: ContextFromName | None = None
     context_strength: float = 1.0
+    context_halo: float = 0.0
+    context_body: bool = False
     context_preview: bool = False

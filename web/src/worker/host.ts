@@ -192,8 +192,8 @@ export class EngineHost {
         const report = this.report();
         const voxels = report.volume?.size.reduce((product, side) => product * side, 1) ?? 0;
         this.needed = BYTES_PER_VOXEL * voxels;
-        const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
-        const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
+        const ofVolume = (replacing.hasBegun && report.volume?.notes) || [];
+        const every = [...loaded.notes, ...ofVolume, wish.every_second ? COARSER : null];
         const notes = [...new Set(every.filter((note) => note != null))];
         return { ...loaded, notes, report, doubt: replacing.doubt };
       } catch (error) {

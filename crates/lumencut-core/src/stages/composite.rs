@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
-use super::focus::Shares;
+use super::focus::{ALL_SHOWN, Shares};
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::lanes::{Kernel, dispatch, smaller};
@@ -49,7 +49,7 @@ pub fn composite(
     let chunk = work.tile_row();
     // Arrays that replace missing layers.
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
-    let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
+    let whole = vec![ALL_SHOWN; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
     let rows = image.par_chunks_mut(chunk).zip(layers.value.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, (image, value))| {
@@ -93,17 +93,24 @@ impl CompositeParameters {
 
     /// The grey surface and its silhouettes, each by its share, over context and background.
     #[inline(always)]
-    fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
+    fn pixel(
+        &self,
+        value: f32,
+        strength: f32,
+        [share, lines, around, shade]: Shares,
+        context: [f32; 4],
+    ) -> [f32; 4] {
         let nothing = value.is_nan();
         let value = if nothing { 0.0 } else { value };
-        let grey = self.grey.at(value);
+        let grey = self.grey.at(value) * (1.0 - shade);
         let opacity = if nothing { 0.0 } else { self.opacity.at(value) * share };
         let (through, strength) = (1.0 - opacity, strength * (share * lines));
         let rest = (1.0 - context[3]) * self.background[3];
         let mut pixel = [0.0; 4];
         for c in 0..3 {
             let surface = grey + (self.line[c] - grey) * strength;
-            pixel[c] = surface * opacity + (context[c] * self.context + self.background[c] * rest) * through;
+            let behind = context[c] * self.context * around;
+            pixel[c] = surface * opacity + (behind + self.background[c] * rest) * through;
         }
         pixel[3] = opacity + (context[3] + rest) * through;
         pixel

@@ -23,7 +23,7 @@ pub enum Image {
     Blend,
     /// Bits that mark jumps of the cut surface's depth, u32 (`stages::leap`).
     Leap,
-    /// Shares of the cut surface and its silhouettes that are shown, 0 to 1, two f32.
+    /// Shares of the cut surface and its silhouettes that are shown, and factors on colours, 0 to 1, four f32 (`stages::focus`).
     Focus,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
@@ -143,6 +143,8 @@ pub enum Stage {
     DepthFilter,
     /// Computes how much of the cut surface is shown around the vessels.
     Focus,
+    /// Computes how much the cut surface is darkened where it lies deeper than its surroundings.
+    Occlusion,
     /// Samples the volume at the cut surface.
     Surface,
     /// Draws lines where the depth of the cut surface jumps.
@@ -151,13 +153,15 @@ pub enum Stage {
     Blocks,
     /// Follows rays through the volume.
     Context,
+    /// Puts the outline of the body behind the context.
+    Body,
     /// Composes the picture from all layers.
     Composite,
 }
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
@@ -165,10 +169,12 @@ impl Stage {
         Self::Leap,
         Self::DepthFilter,
         Self::Focus,
+        Self::Occlusion,
         Self::Surface,
         Self::Silhouette,
         Self::Blocks,
         Self::Context,
+        Self::Body,
         Self::Composite,
     ];
 
@@ -182,10 +188,12 @@ impl Stage {
             Self::Leap => "leap",
             Self::DepthFilter => "depth_filter",
             Self::Focus => "focus",
+            Self::Occlusion => "occlusion",
             Self::Surface => "surface",
             Self::Silhouette => "silhouette",
             Self::Blocks => "blocks",
             Self::Context => "context",
+            Self::Body => "body",
             Self::Composite => "composite",
         }
     }
@@ -194,10 +202,10 @@ impl Stage {
     pub const fn cost(self) -> usize {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => 0,
-            Self::Distance => 8,
+            Self::Distance | Self::Occlusion => 8,
             Self::Depth => 12,
             Self::Leap | Self::Focus | Self::Surface => 4,
-            Self::DepthFilter | Self::Silhouette => 2,
+            Self::DepthFilter | Self::Silhouette | Self::Body => 2,
             Self::Context => 14,
             Self::Composite => 10,
         }
@@ -211,9 +219,11 @@ impl Stage {
             Self::Depth => &[Image::Distance],
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
+            Self::Occlusion => &[Image::UnfilteredDepth, Image::Depth, Image::Focus],
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Focus, Image::Value],
+            Self::Body => &[Image::Start, Image::Gathered],
             Self::Composite => &[Image::Focus, Image::Value, Image::Strength, Image::Gathered],
         }
     }
@@ -226,10 +236,11 @@ impl Stage {
             Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
-            Self::Focus => &[Image::Focus],
+            Self::Focus | Self::Occlusion => &[Image::Focus],
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
             Self::Context => &[Image::Start, Image::Gathered],
+            Self::Body => &[Image::Gathered],
             Self::Composite => &[Image::Context, Image::Picture],
         }
     }
@@ -247,14 +258,18 @@ impl Stage {
             (Self::Depth, true),
             (Self::Leap, has_leaps),
             (Self::DepthFilter, settings.depth_filter),
-            (Self::Focus, has_focus || (has_reach && draws)),
+            (Self::Focus, has_focus || ((has_reach || settings.occlusion > 0.0) && draws)),
+            (Self::Occlusion, settings.occlusion > 0.0 && draws),
         ];
         needed(&stages)
     }
 
     /// Whether the stage is one of those that find the cut surface.
     pub const fn is_of_cut_surface(self) -> bool {
-        matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
+        matches!(
+            self,
+            Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus | Self::Occlusion
+        )
     }
 
     /// Whether the stage `depth` writes the sheet: if `leap` needs it, or if it is wanted.
@@ -291,6 +306,7 @@ impl Stage {
             (Self::Silhouette, has_silhouettes),
             (Self::Blocks, has_context),
             (Self::Context, has_context),
+            (Self::Body, has_context && settings.context.as_ref().is_some_and(|c| c.body && !c.preview)),
             (Self::Composite, has_picture || has_context),
         ];
         needed(&stages)

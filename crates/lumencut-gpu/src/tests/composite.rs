@@ -34,7 +34,7 @@ impl Scene {
         };
         let context =
             (0..pixels).map(|_| color(&mut random)).map(|[[r, a], [g, _], [b, _]]| [r, g, b, a]).collect();
-        let focus = (0..pixels).map(|_| [0; 2].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
+        let focus = (0..pixels).map(|_| [0; 4].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
         Self { value, strength, focus, context }
     }
 }

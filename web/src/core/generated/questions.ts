@@ -1113,7 +1113,8 @@ export type VolumeReport = {
   readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
-  readonly doubt: string | null;
+  /** Notes for the user on its size and its values. */
+  readonly notes: ReadonlyArray<string>;
 };
 
 export type WholeVessel = {
