@@ -67,10 +67,7 @@ class Settings(CheckedSettings):
     samples : int, 1 to 4, default 1
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
-    edge_samples : int, 1 to 4, default 3
-        Average N × N samples per pixel at silhouettes of the rule ``leap``, unless ``samples`` exceeds 1
-        (count, 1 to 4).
-    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
+    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
     opacity : Opacity, optional
@@ -87,8 +84,6 @@ class Settings(CheckedSettings):
         Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
-    far_rim : float, 0 to 1, default 0.3
-        Darken the farther side of a depth jump where ``silhouette_reach`` hides its line (number, 0 to 1).
     occlusion : float, 0 to 1, default 0
         Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
@@ -121,7 +116,7 @@ class Settings(CheckedSettings):
         largest, smallest and mean value along each ray.
     context_gamma : float, -1 to 1, default 0
         Blend for ``mida`` (number, -1 to 1): -1 is ``dvr``, 0 ``mida``, 1 ``mip``.
-    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
+    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
         Intensities that the context maps to 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         ``mida`` scales its differences by it; ``minip`` and ``average`` show it from black to white; named
         transfer functions lie within it. If not given, it comes from the data whatever ``window`` is:
@@ -169,14 +164,12 @@ class Settings(CheckedSettings):
     zone_filter: bool = True
     depth_leap: float = 1.0
     samples: int = 1
-    edge_samples: int = 3
     window: Window | str | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
-    far_rim: float = 0.3
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     tree: TreeName = "hidden"
