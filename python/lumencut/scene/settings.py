@@ -67,6 +67,9 @@ class Settings(CheckedSettings):
     samples : int, 1 to 4, default 1
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
+    edge_samples : int, 1 to 4, default 3
+        Average N × N samples per pixel at silhouettes of the rule ``leap``, unless ``samples`` exceeds 1
+        (count, 1 to 4).
     window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
@@ -84,6 +87,8 @@ class Settings(CheckedSettings):
         Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
+    far_rim : float, 0 to 1, default 0.3
+        Darken the farther side of a depth jump where ``silhouette_reach`` hides its line (number, 0 to 1).
     occlusion : float, 0 to 1, default 0
         Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
@@ -164,12 +169,14 @@ class Settings(CheckedSettings):
     zone_filter: bool = True
     depth_leap: float = 1.0
     samples: int = 1
+    edge_samples: int = 3
     window: Window | str | None = None
     opacity: Opacity | None = None
     silhouettes: bool = True
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
+    far_rim: float = 0.3
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     tree: TreeName = "hidden"
