@@ -52,7 +52,8 @@ def silhouettes(surface, camera, tolerance):
     """Return the strength of silhouettes by the rule `leap`, and where rounding may change the strength.
 
     The depth jumps between two neighbours if it differs from the extrapolation of either slope, both
-    times by more than the diameter of the vessel and by more than 2 mm. Folds are no jumps. Each jump draws its own line.
+    times by more than the diameter of the vessel and by more than 2 mm. Folds are no jumps. Each jump draws
+    its own line.
     """
     lumen, strength = surface.beyond <= 0, np.zeros(surface.depth.shape)
     vague_here = surface.unsure_depth | surface.unsure_vessel | (np.abs(surface.beyond) < tolerance)

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_silhouette_width import SETTINGS, renderer, straight
 
 from lumencut import Camera, Renderer, Settings, phantom
+from test_silhouette_width import SETTINGS, renderer, straight
 
 SIZE = (120, 96)
 SPACING = 0.6

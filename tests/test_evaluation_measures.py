@@ -280,7 +280,9 @@ def test_lines_at_leaps_and_elsewhere(lone, camera):
     found = numbers(lone, replace(shown, plain_depth=depth, strength=drawn))
     assert found["leaps"] == 161
     assert found["leaps_with_line_percent"] == pytest.approx(100 * 82 / 161)
-    assert (found["leaps_with_rim_percent"], found["leaps_with_either_percent"]) == pytest.approx((0, 100 * 82 / 161))
+    assert (found["leaps_with_rim_percent"], found["leaps_with_either_percent"]) == pytest.approx(
+        (0, 100 * 82 / 161)
+    )
     rim = np.zeros(depth.shape)
     rim[121:, 81] = 0.2
     rim[:, 83] = 0.3

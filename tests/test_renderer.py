@@ -80,7 +80,17 @@ def test_fields_of_a_frame(size):
     assert (frame.distance >= 0).all()
     assert frame.camera is camera
     assert list(bare.timings) == ["levels", "projection", "depth", "depth_filter"]
-    stages = ["levels", "projection", "depth", "leap", "depth_filter", "focus", "far_rim", "surface", "silhouette"]
+    stages = [
+        "levels",
+        "projection",
+        "depth",
+        "leap",
+        "depth_filter",
+        "focus",
+        "far_rim",
+        "surface",
+        "silhouette",
+    ]
     assert list(frame.timings)[:9] == stages
     assert list(frame.timings)[-2:] == ["context", "composite"]
     paper = renderer.render(camera, Settings.paper())

@@ -87,9 +87,10 @@ describe('at rest', () => {
     await vi.advanceTimersByTimeAsync(10_000);
     expect(stages()).toEqual(['moving', 'full', 'samples']);
     expect(lasts()).toEqual([false, false, true]);
-    expect(engine.asked[0]?.settings).toEqual({ levels: 3, context_preview: true, samples: 1 });
-    expect(engine.asked[1]).toEqual(VIEW);
-    expect(engine.asked[2]?.settings).toEqual({ levels: 3, samples: 2 });
+    const plain = { levels: 3, edge_samples: 1 };
+    expect(engine.asked[0]?.settings).toEqual({ ...plain, context_preview: true, samples: 1 });
+    expect(engine.asked[1]).toEqual({ ...VIEW, settings: plain });
+    expect(engine.asked[2]?.settings).toEqual({ ...plain, samples: 2 });
     expect(vi.getTimerCount()).toBe(0);
   });
 

@@ -25,7 +25,16 @@ _CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper", "l
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
 _NOTHING = (None, False, 0, ())
 _VESSELS = ("vessel", "exclude", "zoom_to")
-_PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", "edge_samples", "far_rim", *_CONTEXT)
+_PICTURE = (
+    "window",
+    "opacity",
+    "silhouette_color",
+    "background",
+    "samples",
+    "edge_samples",
+    "far_rim",
+    *_CONTEXT,
+)
 
 
 def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:

@@ -125,9 +125,10 @@ export class FrameLoop {
   }
 
   private atStage(view: View, stage: Stage): View {
-    const plain: Settings = { ...view.settings, samples: 1, edge_samples: 1 };
+    // Lines become smooth at the end, by samples everywhere.
+    const plain: Settings = { ...view.settings, edge_samples: 1 };
     if (stage === 'moving') {
-      const settings = { ...plain, context_preview: true };
+      const settings = { ...plain, context_preview: true, samples: 1 };
       return { ...view, camera: sampled(view.camera, this.factor), settings };
     }
     const camera = sampled(view.camera, Math.min(window.devicePixelRatio || 1, MOST_DENSE));
