@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from lumencut.pictures.renderer import Renderer, render
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
+    from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
     from lumencut.reformations.reformation import Reformation
@@ -127,6 +128,7 @@ _HOME = {
     "pictures.renderer": ("Renderer", "render"),
     "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
     "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
+    "reformations.flattening": ("FlattenedSurface", "flatten"),
     "reformations.lumen_mapping": ("lumen_map",),
     "reformations.planar_reformation": ("PlanarReformation", "cpr"),
     "reformations.reformation": ("Reformation",),
@@ -178,6 +180,7 @@ __all__ = [
     "FeatureAggregation",
     "FileError",
     "Flag",
+    "FlattenedSurface",
     "Focus",
     "FormatError",
     "Frame",
@@ -234,6 +237,7 @@ __all__ = [
     "evaluate",
     "find_vessels",
     "fitted_turn",
+    "flatten",
     "flight",
     "get_threads",
     "list_series",

@@ -84,6 +84,7 @@ __all__ = [
     "CenterlineFile",
     "Comparison",
     "Cpr",
+    "Flattened",
     "Grade",
     "GzipPacker",
     "KeptProfiles",
@@ -338,6 +339,9 @@ class Cpr(Layout):
     def straightened_sides(self, step: float, is_stated: bool) -> tuple[list[list[float]], str]: ...
 
 @final
+class Flattened(Layout):
+    def __new__(cls, curves: list[npt.NDArray[np.float64]], keep: str, pixel_spacing: float) -> Flattened: ...
+
 class Spiral(Layout):
     def __new__(
         cls,

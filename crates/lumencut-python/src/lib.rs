@@ -12,6 +12,7 @@ mod dicom;
 mod drags;
 mod errors;
 mod file_kinds;
+mod flattened;
 mod found_vessels;
 mod kept_profiles;
 mod labels;
@@ -66,6 +67,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<layout::Layout>()?;
     module.add_class::<cpr::Cpr>()?;
+    module.add_class::<flattened::Flattened>()?;
     module.add_class::<spiral::Spiral>()?;
     module.add_class::<volume_file::VolumeOpening>()?;
     module.add_class::<volume_file::VolumePlan>()?;

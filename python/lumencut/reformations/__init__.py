@@ -11,6 +11,7 @@ from lumencut.base.public_names import public_name
 
 if TYPE_CHECKING:
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
+    from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
     from lumencut.reformations.reformation import Reformation
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FeatureAggregation",
+    "FlattenedSurface",
     "LumenMap",
     "Ostium",
     "PlanarReformation",
@@ -37,6 +39,7 @@ __all__ = [
     "cfa",
     "cpr",
     "cr",
+    "flatten",
     "lumen_map",
     "mpcpr",
     "spiral",
