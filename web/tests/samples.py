@@ -32,8 +32,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 from dicom_cases import CASES  # noqa: E402
 from dicom_repeated import REPEATED  # noqa: E402
 from dicom_scenes import scan  # noqa: E402
-from lumencut._lumencut import cut_off_note
 from lumencut import Vessel, set_threads, straightened_volume  # noqa: E402
+from lumencut._lumencut import cut_off_note  # noqa: E402
 from lumencut.dicom.reading import workers  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.files.volumes import inspected_volume, read_volume  # noqa: E402
