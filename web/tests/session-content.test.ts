@@ -72,6 +72,7 @@ const LOOKED: DisplayState = {
   layout: 'strip',
   crossHair: [1, 2, 3],
   slices: STANDARD,
+  compared: null,
   picked: { id: 1, at: 12.5 },
 };
 

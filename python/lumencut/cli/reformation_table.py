@@ -311,7 +311,8 @@ _FLATTEN = _command(
     """Show the surface through the curves of CENTERLINES as a flat image, such as both rims of a jaw.
 
     The curves stand in their order in the file, from one side of the surface to the other. Lines cross all
-    of them at equal shares of their lengths. Lengths are true along what is kept, and in the middle across it.
+    of them at equal shares of their lengths. Lengths are true along what is kept, and in the middle
+    across it.
 
     \b
     lumencut flatten ct.nii.gz rims.mrk.json -o jaw.png --slab 4mm:mean
