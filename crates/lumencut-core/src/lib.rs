@@ -5,6 +5,7 @@
 
 pub mod brute_force;
 pub mod camera;
+pub mod edges;
 pub mod error;
 pub mod frame;
 pub mod geometry;

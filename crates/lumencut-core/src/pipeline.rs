@@ -2,7 +2,6 @@
 //! every pixel, `look` shows the volume there. A reformation finds the positions in another way and then also uses
 //! `look`.
 
-mod edges;
 mod images;
 mod pass;
 
@@ -12,9 +11,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use web_time::Instant;
 
-pub use self::edges::EdgeSamples;
 pub use self::images::Images;
-use self::pass::Lines;
+pub(crate) use self::pass::Lines;
 pub use self::pass::{CutSurfacePass, LookPass, SurfaceDetails};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
@@ -107,7 +105,7 @@ pub struct CpuRenderer {
     first: Vec<usize>,
     /// The sheet of the previous view, kept to reuse its buffer, the largest of those that no frame needs.
     sheet: Vec<Sheet>,
-    isa: Isa,
+    pub(crate) isa: Isa,
 }
 
 impl Default for CpuRenderer {
@@ -257,17 +255,17 @@ pub fn nothing_to_show() -> Error {
 }
 
 /// Measures the stages one after the other.
-struct Clock {
+pub(crate) struct Clock {
     last: Instant,
-    timings: Vec<Timing>,
+    pub(crate) timings: Vec<Timing>,
 }
 
 impl Clock {
-    fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self { last: Instant::now(), timings: Vec::new() }
     }
 
-    fn lap(&mut self, stage: Stage) {
+    pub(crate) fn lap(&mut self, stage: Stage) {
         let now = Instant::now();
         let milliseconds = (now - self.last).as_secs_f64() * 1e3;
         self.timings.push(Timing { stage: stage.name(), milliseconds });

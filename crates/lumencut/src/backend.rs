@@ -1,8 +1,9 @@
 //! Computes views on the CPU, or on a GPU with the CPU as fallback.
 
+use lumencut_core::edges::EdgeSamples;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
-use lumencut_core::pipeline::{CpuRenderer, EdgeSamples, Request};
+use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{LeveledTree, Scene, SharedVolume};
 use lumencut_core::settings::TreeShown;
 use lumencut_core::stages::{Image, ImageSet};

@@ -246,7 +246,7 @@ impl LookPass<'_> {
     }
 }
 
-pub(super) struct Lines<'a> {
+pub(crate) struct Lines<'a> {
     pub depth: &'a [f32],
     pub vessel: &'a [i32],
     pub leap: &'a [u32],
@@ -255,11 +255,11 @@ pub(super) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn of(frame: &'a Frame) -> Self {
+    pub(crate) fn of(frame: &'a Frame) -> Self {
         Self { depth: frame.depth(), vessel: &frame.vessel, leap: &frame.leap, value: &[] }
     }
 
-    pub(super) fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
+    pub(crate) fn strength(&self, work: &Work, settings: &Settings, camera: &Camera) -> Result<Vec<f32>> {
         let (mut strength, parameters) =
             (vec![0.0; work.pixels()], SilhouetteParameters::new(settings, camera));
         match settings.silhouette_rule {

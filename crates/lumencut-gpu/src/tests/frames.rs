@@ -73,7 +73,6 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("focus amid whole rays", with(|s| focus_amid(s, ContextFrom::Whole))),
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
         ("occlusion", with(|s| s.occlusion = 0.6)),
-        ("a full far rim", with(|s| (s.far_rim, s.silhouette_reach) = (1.0, Some(1.0)))),
         ("occlusion of the unfiltered depth", with(|s| (s.occlusion, s.depth_filter) = (1.0, false))),
         ("a halo and the body around the focus", with(|s| halo_around(s, &[]))),
         ("a halo around a chosen vessel", with(|s| halo_around(s, &[0]))),

@@ -2,14 +2,12 @@
 
 use glam::DVec3;
 
-use super::images::Images;
-use super::pass::{CutSurfacePass, Lines};
-use super::{Clock, CpuRenderer, Request};
 use crate::error::Result;
 use crate::frame::{Frame, Timing};
 use crate::geometry::{Curved, Geometry};
 use crate::math::lanes::{COLUMNS, PIXELS, ROWS};
 use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, TO_THE_RIGHT};
+use crate::pipeline::{Clock, CpuRenderer, CutSurfacePass, Images, Lines, Request};
 use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::{LevelChoice, Settings, SilhouetteRule, SlabMode};
 use crate::stages::composite::{CompositeParameters, Layers, composite};
