@@ -67,7 +67,7 @@ class Settings(CheckedSettings):
     samples : int, 1 to 4, default 1
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
-    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
+    window : Window, or a name of `Window.named`, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
     opacity : Opacity, optional
@@ -116,7 +116,7 @@ class Settings(CheckedSettings):
         largest, smallest and mean value along each ray.
     context_gamma : float, -1 to 1, default 0
         Blend for ``mida`` (number, -1 to 1): -1 is ``dvr``, 0 ``mida``, 1 ``mip``.
-    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
+    context_window : Window, or a name of `Window.named`, optional
         Intensities that the context maps to 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         ``mida`` scales its differences by it; ``minip`` and ``average`` show it from black to white; named
         transfer functions lie within it. If not given, it comes from the data whatever ``window`` is:
