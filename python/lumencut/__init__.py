@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.lumen_mapping import lumen_map
+    from lumencut.reformations.network_map import NetworkMap, network
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
     from lumencut.reformations.reformation import Reformation
     from lumencut.reformations.spiral_reformation import SpiralReformation, spiral
@@ -126,6 +127,7 @@ _HOME = {
     "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
     "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
     "reformations.lumen_mapping": ("lumen_map",),
+    "reformations.network_map": ("NetworkMap", "network"),
     "reformations.planar_reformation": ("PlanarReformation", "cpr"),
     "reformations.reformation": ("Reformation",),
     "reformations.spiral_reformation": ("SpiralReformation", "spiral"),
@@ -185,6 +187,7 @@ __all__ = [
     "MeasuringError",
     "Mend",
     "MissingPackageError",
+    "NetworkMap",
     "Opacity",
     "Ostium",
     "PacsError",
@@ -235,6 +238,7 @@ __all__ = [
     "lumen_map",
     "measure",
     "mpcpr",
+    "network",
     "read_centerlines",
     "read_volume",
     "render",

@@ -61,6 +61,7 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/distance",
     "stages/focus",
     "stages/leap",
+    "stages/rim",
     "stages/silhouette",
     "stages/surface",
 ];

@@ -19,6 +19,7 @@ mod lines;
 mod mpcpr;
 mod one_decision;
 mod paper;
+mod rim;
 mod scene;
 mod settings;
 mod stages;

@@ -10,6 +10,7 @@ use crate::cut_surface::CutSurfaceStages;
 use crate::depth_filter::DepthFilter;
 use crate::device::Device;
 use crate::leap::Leap;
+use crate::rim::Rim;
 use crate::silhouette::Silhouette;
 use crate::surface::Surface;
 use crate::view::ViewParameters;
@@ -23,6 +24,7 @@ pub(crate) struct Stages {
     pub cut_surface: CutSurfaceStages,
     pub leap: Leap,
     pub depth_filter: DepthFilter,
+    pub rim: Rim,
     pub surface: Surface,
     pub silhouette: Silhouette,
     pub context: ContextStage,
@@ -37,6 +39,7 @@ impl Stages {
             cut_surface: CutSurfaceStages::new(device),
             leap: Leap::new(device),
             depth_filter: DepthFilter::new(device),
+            rim: Rim::new(device),
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),
             context: ContextStage::new(device),

@@ -148,7 +148,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     if chosen["at"] is not None and len(vessels) > 1:
         mend = "choose one by --vessel or --path"
         raise click.UsageError(f"--at is a place on one vessel; found {len(vessels)}; {mend}")
-    measured = _measured(voxels, tree, vessels, chosen)
+    measured = measured_vessels(voxels, tree, vessels, chosen)
     for one in measured:
         say(f"{one.name}: {_described(one.profile)}")
         for line in one.lines:
@@ -178,7 +178,7 @@ def _check_places(chosen: dict[str, Any]) -> None:
             raise click.UsageError(f"--{name} grades nothing without a reference; {mend}")
 
 
-def _measured(
+def measured_vessels(
     voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
 ) -> list[MeasuredVessel]:
     """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""

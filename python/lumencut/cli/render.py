@@ -21,7 +21,9 @@ from lumencut.cli.like import (
     warn_of_vessels,
 )
 from lumencut.cli.outputs import name_of, pictures
+from lumencut.cli.rim import rim_option
 from lumencut.cli.report import bar, busy, detail, say, timings, verbose_option
+from lumencut.cli.rim import rim_option
 from lumencut.cli.scene import (
     check_scene,
     is_empty,
@@ -79,6 +81,7 @@ HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
 )
 @paper_option
 @setting_options
+@rim_option
 @verbose_option
 def render(
     output: tuple[Path, ...],
@@ -118,7 +121,7 @@ def render(
     check_objects(chosen, output)
     if chosen["values"] and (chosen["annotate"] or chosen["compress"]):
         raise click.UsageError("--values has no labels and is not compressed; leave out these options")
-    renderer, scene = read_scene(files, chosen)
+    renderer, scene = read_scene(files, chosen, settings)
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
     cameras = _placed(views, scene, chosen, recipe, is_hanging=hanging is not None)

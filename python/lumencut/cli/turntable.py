@@ -13,6 +13,7 @@ from lumencut.cli.dicom import check_objects, dicom_options, grey_option, is_obj
 from lumencut.cli.labels import check_labels, label_options
 from lumencut.cli.parameters import Named, PlaceOnVessel
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
+from lumencut.cli.rim import rim_option
 from lumencut.cli.scene import (
     check_scene,
     is_empty,
@@ -82,6 +83,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @grey_option
 @paper_option
 @setting_options
+@rim_option
 @verbose_option
 def turntable(
     output: str,
@@ -118,7 +120,7 @@ def turntable(
     dicom = {**study_of(chosen), **{name: chosen[name] for name in ("grey", "compress")}}
     write = _checked_writer(output, fps, labels | {"dicom": dicom}, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
-    renderer, scene = read_scene(files, chosen)
+    renderer, scene = read_scene(files, chosen, settings)
     warn_of_window(settings, renderer)
 
     from lumencut.pictures import turntables as library

@@ -19,14 +19,15 @@ if TYPE_CHECKING:
     from lumencut.reformations.untangled_tree import UntangledTree
     from lumencut.scene.settings import Settings
 
-_UNUSED = {"size": (64, 64), "zoom": 1.0}
+#: View options without effect on a layout.
+UNUSED = {"size": (64, 64), "zoom": 1.0}
 
 
 def show_untangled(**given: Any) -> None:
     """Write the picture of a tree."""
     options.check_picture(given["output"])
     chosen, settings = reformations.like(given, "untangled")
-    view = options.view_from({**chosen, **_UNUSED, "pixel_spacing": None})
+    view = options.view_from({**chosen, **UNUSED, "pixel_spacing": None})
     renderer = _renderer(chosen, settings)
 
     from lumencut.reformations.untangling import UntangledRequest
@@ -61,7 +62,7 @@ def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
 
 
 def _print(output: str, made: UntangledTree) -> None:
-    """Print the files, and warn of vessels that could not be separated."""
+    """Print the file, and warn of what it does not show."""
     import numpy as np
 
     turns = [abs(part.turn) for part in made.parts if part.turn]
@@ -70,10 +71,15 @@ def _print(output: str, made: UntangledTree) -> None:
     vessels = "1 vessel" if count == 1 else f"{count} vessels"
     say(f"{output}: {made.recipe.name} of {vessels}{turned}, pixels of {made.pixel_spacing:.4g} mm")
     detail(made.recipe.axes)
+    warn_of_overlaps(made)
+    if np.isnan(made.value).all():
+        warn("no pixel lies in the volume")
+
+
+def warn_of_overlaps(made: UntangledTree) -> None:
+    """Warn of vessels that could not be separated."""
     if made.overlaps:
         ids = ", ".join(map(str, made.overlaps))
         warn(
             f"vessels that could not be separated: {ids}; show fewer vessels, or use a smaller --hull-margin"
         )
-    if np.isnan(made.value).all():
-        warn("no pixel lies in the volume")

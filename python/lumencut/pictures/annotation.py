@@ -1,4 +1,5 @@
-"""Labels on a picture: the sides of the patient, the view, the window, a scale bar and the vessels' names."""
+"""Labels on a picture: the sides of the patient, the view, the window, a scale bar,
+the colours of a rim, and the vessels' names."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.pictures.lettering import Sheet
+from lumencut.pictures.value_colours import write_legend
 from lumencut.pictures.vessel_labels import write_vessel_names
 from lumencut.scene.orientation import edges, view_name
 
@@ -32,6 +34,8 @@ def annotated(
         _write_sides(sheet, edges(camera))
     _write_words(sheet, camera, source)
     _write_scale(sheet, camera, source)
+    if source.legend is not None:
+        write_legend(sheet, source.legend)
     if vessel_names:
         write_vessel_names(sheet, camera, source.vessel_ends)
     return sheet.pixels()

@@ -118,6 +118,14 @@ class Sheet:
         self.taken.append(box)
         self._draw.rectangle(box, fill=(*color, 255), outline=_LIGHT)
 
+    def paste(self, pixels: npt.NDArray[np.uint8], corner: tuple[int, int]) -> None:
+        """Put RGBA pixels (H, W, 4) at the column and row of their upper left corner."""
+        from PIL import Image
+
+        (left, top), (height, width) = corner, pixels.shape[:2]
+        self.taken.append((left, top, left + width, top + height))
+        self._picture.paste(Image.fromarray(pixels), corner)
+
     def arc(self, center: tuple[float, float], radius: float, start: float, end: float) -> None:
         """Draw an arc about a point between two angles (radians, counter-clockwise from the right)."""
         # Pillow expects clockwise angles in degrees, the smaller angle first.

@@ -12,6 +12,7 @@ from lumencut.base.public_names import public_name
 if TYPE_CHECKING:
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.lumen_mapping import lumen_map
+    from lumencut.reformations.network_map import NetworkMap, network
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
     from lumencut.reformations.reformation import Reformation
     from lumencut.reformations.spiral_reformation import SpiralReformation, spiral
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FeatureAggregation",
     "LumenMap",
+    "NetworkMap",
     "Ostium",
     "PlanarReformation",
     "Reformation",
@@ -39,6 +41,7 @@ __all__ = [
     "cr",
     "lumen_map",
     "mpcpr",
+    "network",
     "spiral",
     "straightened_volume",
     "uncurl",

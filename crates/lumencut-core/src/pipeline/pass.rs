@@ -16,6 +16,7 @@ use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
 use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
+use crate::stages::rim::{RimColors, RimParameters, rim};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
@@ -30,6 +31,8 @@ pub struct CutSurfacePass<'a> {
     pub has_sheet: bool,
     pub wanted: ImageSet,
     pub settings: &'a Settings,
+    /// Colours along the vessels, for the rim.
+    pub colors: Option<&'a RimColors>,
 }
 
 impl CutSurfacePass<'_> {
@@ -49,8 +52,11 @@ impl CutSurfacePass<'_> {
                 if Stage::has_blend(self.wanted) {
                     images.blend = vec![[0.0; 4]; pixels];
                 }
-                let Images { unfiltered_depth, vessel, sheet, blend, .. } = images;
-                let written = DepthImages { depth: unfiltered_depth, vessel, sheet, blend };
+                if Stage::has_foot(self.settings, self.wanted) {
+                    images.foot = vec![[0.0; 4]; pixels];
+                }
+                let Images { unfiltered_depth, vessel, sheet, blend, foot, .. } = images;
+                let written = DepthImages { depth: unfiltered_depth, vessel, sheet, blend, foot };
                 depth(work, &self.surface, &images.distance, written)
             }
             Stage::Leap => {
@@ -60,6 +66,7 @@ impl CutSurfacePass<'_> {
             }
             Stage::DepthFilter => self.depth_filter(images),
             Stage::Focus => self.focus(images),
+            Stage::Rim => self.rim(images),
             Stage::Levels
             | Stage::Projection
             | Stage::Surface
@@ -79,6 +86,18 @@ impl CutSurfacePass<'_> {
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
         focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
+    }
+
+    fn rim(&self, images: &mut Images) -> Result<()> {
+        let Some(colors) = self.colors else { return Ok(()) };
+        let parameters = RimParameters::new(self.settings, self.surface.camera());
+        let strips = colors.strips(self.surface.level(0));
+        images.rim = vec![[0; 4]; self.work.pixels()];
+        let along = (&strips[..], colors.colors());
+        let places = (&images.foot[..], &images.vessel[..]);
+        rim(&self.work, &parameters, along, places, &mut images.rim)?;
+        images.foot = Vec::new();
+        Ok(())
     }
 
     fn depth_filter(&self, images: &mut Images) -> Result<()> {
@@ -105,6 +124,7 @@ pub struct LookPass<'a> {
     pub vessel: &'a [i32],
     pub leap: &'a [u32],
     pub focus: &'a [Shares],
+    pub rim: &'a [[u8; 4]],
     pub wanted: ImageSet,
 }
 
@@ -123,7 +143,8 @@ impl LookPass<'_> {
             | Stage::Depth
             | Stage::Leap
             | Stage::DepthFilter
-            | Stage::Focus => Ok(()),
+            | Stage::Focus
+            | Stage::Rim => Ok(()),
         }
     }
 
@@ -202,6 +223,7 @@ impl LookPass<'_> {
             value: if images.value.is_empty() { &nothing } else { &images.value },
             strength: Some(&images.strength[..]).filter(|strength| !strength.is_empty()),
             focus: self.focus(),
+            rim: Some(self.rim).filter(|rim| !rim.is_empty()),
             context: Some(&images.gathered[..]).filter(|gathered| !gathered.is_empty()),
         };
         images.picture = vec![[0; 4]; pixels];

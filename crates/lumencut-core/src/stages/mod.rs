@@ -20,6 +20,8 @@ pub mod leap;
 #[doc(hidden)]
 pub mod levels;
 #[doc(hidden)]
+pub mod rim;
+#[doc(hidden)]
 pub mod silhouette;
 #[doc(hidden)]
 pub mod surface;

@@ -13,7 +13,7 @@ use lumencut_core::math::{
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
-use lumencut_core::stages::{context, depth, leap, silhouette};
+use lumencut_core::stages::{composite, context, depth, leap, silhouette};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
@@ -90,6 +90,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
         "math/walls": walls::MAX_LEAN;
+        "stages/composite": composite::RIM_FADES;
         "stages/context": context::IN_FRONT;
         "stages/depth": depth::CHOSEN_GAP;
         "stages/leap": leap::SMALLEST_LEAP;

@@ -11,6 +11,7 @@ use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
 use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::leap::LeapParameters;
+use lumencut_core::stages::rim::{RimParameters, RimStrip};
 use lumencut_core::stages::silhouette::SilhouetteParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
@@ -91,6 +92,8 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("math/levels", Span { first, end, level, first_chosen, end_chosen }),
         host!("stages/focus", FocusParameters { margin, per_fade, near, far, others, padding }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
+        host!("stages/rim", RimParameters { near, far, per_side, most }),
+        host!("stages/rim", RimStrip { first, last, per_mm }),
         host!(
             "math/sampling",
             GridParameters {

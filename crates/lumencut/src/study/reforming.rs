@@ -6,14 +6,16 @@ use lumencut_core::geometry::Geometry;
 use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::pipeline::{self, Request};
 use lumencut_core::reformations::cpr::Straightened;
-use lumencut_core::settings::{Settings, Slab, SlabMode};
+use lumencut_core::settings::{RimValue, Settings, Slab, SlabMode};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use std::sync::Arc;
 
+use crate::along_vessels::Legend;
 use crate::lumen_map::{ostia, thickness};
 use crate::lumen_wall::{FoundWall, lumen_wall};
+use crate::network;
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
 use crate::study::open_study::{Study, shown_flat};
@@ -79,7 +81,7 @@ impl Study {
         (before, stop): (Option<&Reformed>, Stop),
     ) -> Result<Laid> {
         Ok(match message {
-            ReformationMessage::Untangled { side } => {
+            ReformationMessage::Untangled { side } | ReformationMessage::Network { side } => {
                 let before = before.and_then(|kept| match &kept.laid {
                     Laid::Untangled(layout) => Some(layout),
                     _ => None,
@@ -143,6 +145,7 @@ impl Study {
                 let thick = thickness(&held, layout, (BAND, level), stop)?;
                 Ok(in_walls(&|n| thick[n], layout.open(stop)?))
             }
+            _ if matches!(message, ReformationMessage::Network { .. }) => Ok(Vec::new()),
             _ => {
                 let (camera, flat) = shown_flat([0.0, 1.0])?;
                 let band = Slab { thickness: BAND[1] - BAND[0], mode: SlabMode::Max };
@@ -168,7 +171,14 @@ impl Study {
             words += MAP_BLACK;
             words += if of == MapOf::Radius { "" } else { MAP_BRIGHT };
         }
-        let pixels = if is_length {
+        let pixels = if let (ReformationMessage::Network { .. }, Laid::Untangled(laid)) =
+            (reformed.message, &reformed.laid)
+        {
+            let along = self.along(RimValue::Diameter, &[])?;
+            let Legend { ends: [low, high], .. } = along.legend;
+            words += &format!(" Colours: diameter from {low} mm (dark blue) to {high} mm (pale green).");
+            network::drawn(laid, &along, stop)?
+        } else if is_length {
             let end = scale_end(&reformed.value);
             words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
             coloured(&reformed.value, [0.0, end], Colours::Viridis)
