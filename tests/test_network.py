@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import Vessel, VesselTree
+from lumencut import Vessel, VesselTree, phantom
 from lumencut.cli import main
 from scene_files import write_volume_of
 
@@ -65,10 +65,10 @@ def test_bad_input_is_refused():
 
 
 def test_the_command_writes_a_map_that_like_repeats(tmp_path: Path):
-    phantom = lumencut.phantom.y_junction()
+    junction = phantom.y_junction()
     volume, lines, out = tmp_path / "ct.nii.gz", tmp_path / "lines.csv", tmp_path / "map.png"
-    write_volume_of(phantom.volume, volume)
-    lumencut.write_centerlines(phantom.tree, lines)
+    write_volume_of(junction.volume, volume)
+    lumencut.write_centerlines(junction.tree, lines)
     result = CliRunner().invoke(main, ["network", str(volume), str(lines), "-o", str(out), "--measured"])
     assert result.exit_code == 0, result.output
     assert "network map, diameter from" in result.output

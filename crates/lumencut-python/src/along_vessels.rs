@@ -24,25 +24,19 @@ impl ValuesAlong {
     #[allow(clippy::needless_pass_by_value)]
     fn new(kind: &str, vessels: Vec<VesselArrays<'_>>, measured: MeasuredArguments<'_>) -> PyResult<Self> {
         let (kind, tree) = (RimValue::named("value", kind).map_err(to_python)?, tree(&vessels)?);
-        let mut profiles: Vec<Option<(_, Vec<_>)>> = vec![None; vessels.len()];
-        for (profile, stenoses) in &measured {
+        let mut along: Vec<_> =
+            tree.vessels().iter().map(|vessel| Along { vessel, profile: None, stenoses: &[] }).collect();
+        let graded: Vec<Vec<_>> =
+            measured.iter().map(|(_, all)| all.iter().map(|one| one.0.clone()).collect()).collect();
+        for ((profile, _), stenoses) in measured.iter().zip(&graded) {
             let id = vessel_of(&profile.0, tree.vessels()).map_err(to_python)?;
-            if profiles[id].is_some() {
+            if along[id].profile.is_some() {
                 let found = format!("two profiles of vessel {id}");
                 return Err(exception("MeasuringError", "profiles", &found, "one of each vessel", ""));
             }
-            let stenoses = stenoses.iter().map(|stenosis| stenosis.0.clone()).collect();
-            profiles[id] = Some((&profile.0, stenoses));
+            along[id] = Along { profile: Some(&profile.0), stenoses, ..along[id] };
         }
-        let along = |(vessel, measured)| {
-            let (profile, stenoses) = match measured {
-                Some((profile, stenoses)) => (Some(&***profile), &stenoses[..]),
-                None => (None, &[][..]),
-            };
-            Along { vessel, profile, stenoses }
-        };
-        let vessels: Vec<_> = tree.vessels().iter().zip(&profiles).map(along).collect();
-        along_vessels::ValuesAlong::new(kind, &vessels).map(Self).map_err(to_python)
+        along_vessels::ValuesAlong::new(kind, &along).map(Self).map_err(to_python)
     }
 
     /// The quantity and its unit in words, the values of the first and the last colour, and the name of the colours.

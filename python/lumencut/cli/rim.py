@@ -16,9 +16,8 @@ if TYPE_CHECKING:
 
 #: How ``lumencut measure`` measures without options, except for what a session file gives.
 _USUAL = {
-    **dict.fromkeys(("fwhm", "at", "reference", "method", "original", "comparison", "group")),
+    **dict.fromkeys(("fwhm", "wall", "at", "reference", "method", "original", "comparison", "group")),
     "step": 0.5,
-    "wall": "auto",
 }
 
 rim_option = click.option(

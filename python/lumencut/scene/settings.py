@@ -18,6 +18,7 @@ from lumencut.scene.window import Opacity, Window
 DistanceRuleName: TypeAlias = Literal["local", "whole curve"]
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
+RimName: TypeAlias = Literal["diameter", "narrowing", "deviation", "uncertainty"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 ContextFromName: TypeAlias = Literal["cut", "whole"]
 
@@ -85,6 +86,11 @@ class Settings(CheckedSettings):
         as in the paper; far from vessels they only mark borders of zones.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
+    rim : {"diameter", "narrowing", "deviation", "uncertainty"} or None, optional
+        Colour a rim around the vessels by values along them (name): ``diameter`` (mm), ``narrowing`` of
+        graded stenoses (%), ``deviation`` from their reference (mm) or ``uncertainty`` of the diameter
+        (mm). Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from
+        radii; all else needs profiles. Labels of the picture explain the colours. If not given: no rim.
     background : (int, int, int, int), default (0, 0, 0, 255)
         Colour of pixels that show nothing else. Red, green, blue and opacity.
     slab : Slab, optional
@@ -160,6 +166,7 @@ class Settings(CheckedSettings):
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
+    rim: RimName | None = None
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
     focus: Focus | None = None

@@ -158,11 +158,12 @@ fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
     on_either().map(move |stage| (stage, others(stage)))
 }
 
-/// All features: a filter within zones, slab, silhouettes, focus, and context behind transparent parts.
+/// All features: a filter within zones, slab, silhouettes, focus, rim, and context behind transparent parts.
 fn everything() -> Settings {
     with(|s| {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
+        s.rim = Some(RimValue::Diameter);
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
 }
