@@ -17,12 +17,13 @@ use crate::errors::to_python;
 pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
     let axes = match reformation {
         "untangled" => Axes::Untangled,
+        "network" => Axes::Network,
         "uncurled" => Axes::Uncurled(number),
         "spiral by arc" => Axes::SpiralByArc(number),
         "spiral by angle" => Axes::SpiralByAngle,
         "map" => Axes::Map(number),
         other => {
-            let expected = "untangled, uncurled, spiral by arc, spiral by angle or map";
+            let expected = "untangled, network, uncurled, spiral by arc, spiral by angle or map";
             let error = Error::new(ErrorKind::Settings, "reformation", format!("'{other}'"), expected);
             return Err(to_python(error));
         }

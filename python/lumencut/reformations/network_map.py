@@ -51,7 +51,7 @@ class NetworkMap(UntangledTree):
 
     def __init__(self, along: _lumencut.ValuesAlong, asked: dict[str, Any], *of_tree: Any) -> None:
         super().__init__(*of_tree)
-        axes = _lumencut.axes_words("untangled")
+        axes = _lumencut.axes_words("network")
         self.recipe = ReformationRecipe("network map", axes, {**self.recipe.parameters, **asked}, "network")
         self._along = along
         self.legend: Legend = Legend(*along.legend)
@@ -75,12 +75,15 @@ class NetworkMap(UntangledTree):
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
 
-        The labels are those of :class:`UntangledTree`, and the legend of the colours.
+        The labels are those of :class:`UntangledTree`, and the legend of the colours, on black.
         """
         from lumencut.pictures.annotation import SMALLEST_SIDE
         from lumencut.pictures.lettering import Sheet
 
         image = super().annotated(vessel_names=vessel_names)
+        # Labels are white, so lines lie on black.
+        image[..., :3] = np.round(image[..., :3] * (image[..., 3:] / 255))
+        image[..., 3] = 255
         if min(image.shape[:2]) < SMALLEST_SIDE:
             return image
         sheet = Sheet(image)

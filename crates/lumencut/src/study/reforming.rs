@@ -13,6 +13,7 @@ use lumencut_core::vessel_tree::Vessel;
 use std::sync::Arc;
 
 use crate::along_vessels::Legend;
+use crate::axes_words::Axes;
 use crate::lumen_map::{ostia, thickness};
 use crate::lumen_wall::{FoundWall, lumen_wall};
 use crate::network;
@@ -164,7 +165,9 @@ impl Study {
     fn picture_of(&self, reformed: &Reformed, (window, stop): ([f64; 2], Stop)) -> Result<ReformedPicture> {
         let layout = reformed.laid.layout();
         let size = layout.size();
-        let mut words = reformed.laid.axes().words();
+        let is_network = matches!(reformed.message, ReformationMessage::Network { .. });
+        let axes = if is_network { Axes::Network } else { reformed.laid.axes() };
+        let mut words = axes.words();
         let is_length =
             matches!(reformed.message, ReformationMessage::Map { of: MapOf::Radius | MapOf::Thickness, .. });
         if let ReformationMessage::Map { of, .. } = reformed.message {

@@ -39,7 +39,8 @@ fn a_line_is_as_long_and_as_wide_as_its_vessel_and_coloured_by_its_diameter() {
         let place = part.pixels[n].round();
         let middle = place.y as usize * width + place.x as usize;
         let colour = along.colours()[0][along.place(0, part.arc_length[n]).unwrap()];
-        assert_eq!(pixels[middle], colour, "at {at} mm");
+        let apart = (0..4).map(|c| pixels[middle][c].abs_diff(colour[c])).max();
+        assert!(apart <= Some(4), "{:?} is not {colour:?} at {at} mm", pixels[middle]);
         let row = &pixels[place.y as usize * width..][..width];
         let covered: f64 = row.iter().map(|pixel| f64::from(pixel[3]) / 255.0).sum();
         assert!((covered * SPACING - (4.0 + at / 10.0)).abs() < 0.2, "{covered} pixels wide at {at} mm");
@@ -56,7 +57,8 @@ fn a_vessel_without_a_value_is_a_grey_line() {
     let vessels = [&known, &unknown].map(|vessel| Along { vessel, profile: None, stenoses: &[] });
     let along = ValuesAlong::new(RimValue::Diameter, &vessels).unwrap();
     let pixels = drawn(&laid, &along, &|| false).unwrap();
-    let greys = pixels.iter().filter(|pixel| pixel[..3] == UNKNOWN && pixel[3] == 255).count();
-    // 30 mm of a line 2.5 pixels wide.
-    assert!((120..200).contains(&greys), "{greys} grey pixels");
+    let grey = pixels.iter().filter(|pixel| pixel[..3] == UNKNOWN);
+    let area: f64 = grey.map(|pixel| f64::from(pixel[3]) / 255.0).sum();
+    // 30 mm of a line 2.5 pixels wide; its start lies in the other vessel.
+    assert!((120.0..160.0).contains(&area), "{area} grey pixels");
 }
