@@ -1,4 +1,4 @@
-"""Hooks of MkDocs: pages of the root, files outside `docs`, scripts as cards, pictures of the gallery.
+"""Hooks of MkDocs: pages of the root, files outside `docs`, scripts as cards, pictures, the paper's figures.
 
 The pages read the same on GitHub, so they link to scripts and to pages of the root by their paths. Plugins
 that include files or run scripts need marks of their own in the pages, which GitHub shows as text.
@@ -26,6 +26,8 @@ OF_ROOT = ("ARCHITECTURE", "CONTRIBUTING", "CHANGELOG", "SECURITY", "CODE_OF_CON
 #: Folders of scripts that become cards, and where their pictures lie in the site.
 EXAMPLES, GALLERY = ROOT / "examples", ROOT / "examples/gallery"
 PICTURES = "gallery"
+#: The page of the paper's figures, and where its pictures lie in the site.
+FIGURES_PAGE, FIGURES = "figures.md", "figures"
 #: Time limit of one picture (s).
 _PATIENCE = 300
 
@@ -203,6 +205,19 @@ def drawn(folder: Path) -> dict[str, Path]:
     return {f"{PICTURES}/{one.picture}": folder / str(one.picture) for one in scripts}
 
 
+def figures(folder: Path) -> tuple[str, dict[str, Path]]:
+    """Make the paper's figures in a folder; return their page, and their pictures by paths in the site."""
+    from lumencut.evaluation.figures import make_figures
+
+    *pictures, index = make_figures(folder)
+    body = re.search(r"<body>(.*)</body>", (folder / index).read_text("utf-8"), re.DOTALL)
+    assert body is not None
+    shown = body[1].replace('src="', f'src="{FIGURES}/').strip()
+    title, rest = re.sub(r"</?h1>", "", shown).split("\n", 1)
+    page = f"---\nhide: [toc]\n---\n\n# {title}\n\n{rest}\n"
+    return page, {f"{FIGURES}/{name}": folder / name for name in pictures}
+
+
 def content() -> tuple[dict[str, str], dict[str, Path]]:
     """The pages and the files of the site that differ from `docs` or lie elsewhere."""
     pages, files = {}, {"icon.svg": ROOT / "web/public/icon.svg"}
@@ -222,7 +237,10 @@ def on_pre_build(**_: Any) -> None:
     global _made
     try:
         pages, files = content()
-        _made = pages, files | drawn(ROOT / "target/docs")
+        # Before the figures: it fails without the CT of the demo, for which figures show a phantom.
+        files |= drawn(ROOT / "target/docs")
+        pages[FIGURES_PAGE], shown = figures(ROOT / "target/docs-figures")
+        _made = pages, files | shown
     except PageError as error:
         raise PluginError(f"{error}; no site was written") from error
 

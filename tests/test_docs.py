@@ -5,12 +5,16 @@ import runpy
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
 import lumencut
 from lumencut import demo
 from lumencut.cli import main
+from lumencut.evaluation import figures as evaluation_figures
+from lumencut.evaluation.figures.figure import Figure, Panel
+from lumencut.evaluation.figures.page import html_page
 
 from script_modules import SCRIPTS  # isort: skip - the next ones are found by it
 import docs
@@ -27,7 +31,7 @@ GALLERY = [script.path for script in docs.scripts_of(docs.GALLERY)]
 def test_every_page_is_in_the_navigation_and_the_other_way_round():
     named = re.findall(r"^      - (\S+\.md)$", (ROOT / "mkdocs.yml").read_text("utf-8"), re.MULTILINE)
     assert len(named) > 30
-    assert sorted(named) == sorted(docs.page_sources())
+    assert sorted(named) == sorted([*docs.page_sources(), docs.FIGURES_PAGE])
 
 
 def test_every_public_name_is_on_one_page():
@@ -259,6 +263,22 @@ def test_requests_to_other_hosts_and_broken_links_are_rejected(built, parts, fau
 def test_an_empty_site_is_refused(tmp_path):
     with pytest.raises(site_checks.SiteError, match="found no page"):
         site_checks.check_site(tmp_path)
+
+
+def test_the_page_of_the_figures_shows_every_picture(tmp_path, monkeypatch):
+    def made(folder):
+        table = Figure("Table 1", "Words.", [], [["a", "b"], ["1", "2"]])
+        panel = Panel("a", "A knot.", {"paper": np.zeros((4, 4, 3), np.uint8)})
+        (folder / "index.html").write_text(html_page([Figure("Figure 2", "Knots.", [panel]), table], "1"))
+        return ["figure-2a-paper.png", "index.html"]
+
+    monkeypatch.setattr(evaluation_figures, "make_figures", made)
+    page, pictures = docs.figures(tmp_path)
+    assert pictures == {"figures/figure-2a-paper.png": tmp_path / "figure-2a-paper.png"}
+    assert page.startswith("---\nhide: [toc]\n---\n\n# Figures of Curved Surface Reformation\n\n")
+    assert 'src="figures/figure-2a-paper.png"' in page
+    assert "<td>2</td>" in page
+    assert "<html" not in page
 
 
 def test_without_the_ct_of_the_demo_no_picture_is_made(tmp_path, monkeypatch):

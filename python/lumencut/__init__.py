@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from lumencut.scene.vessel_gap import Gap
     from lumencut.scene.vessel_tree import VesselTree
     from lumencut.scene.volume import Volume
+    from lumencut.scene.volume_pyramid import VolumePyramid
     from lumencut.scene.window import Opacity, Window
     from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.tracing.mask_tracing import trace_mask
@@ -150,6 +151,7 @@ _HOME = {
     "scene.vessel_gap": ("Gap",),
     "scene.vessel_tree": ("VesselTree",),
     "scene.volume": ("Volume",),
+    "scene.volume_pyramid": ("VolumePyramid",),
     "scene.window": ("Opacity", "Window"),
     "tracing.centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "tracing.mask_tracing": ("trace_mask",),
@@ -218,6 +220,7 @@ __all__ = [
     "VesselTreeError",
     "Volume",
     "VolumeError",
+    "VolumePyramid",
     "Window",
     "__version__",
     "batch",

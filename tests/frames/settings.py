@@ -122,6 +122,8 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     chosen: Values = {"focus": Focus(1, 9), "focus_vessels": (2,)}
     yield from each("others_strength", (0, 0.8, 1), **chosen)
     yield "focus and opacity", {"focus": Focus(1, 20), "opacity": SEE_THROUGH}
+    yield from each("tree", ("wireframe",))
+    yield "tree wireframe, samples 2", {"tree": "wireframe", "samples": 2}
     yield "slab and opacity", {"slab": Slab(6, "mean"), "opacity": SEE_THROUGH}
 
 

@@ -63,6 +63,12 @@ impl Renderer {
         Ok(Self { backend: Arc::clone(&self.backend), volume: self.volume.clone(), tree })
     }
 
+    /// The same tree on the same device, for another volume.
+    fn with_other_volume(&self) -> Self {
+        let Self { backend, tree, .. } = self;
+        Self { backend: Arc::clone(backend), volume: VolumeKey::default(), tree: tree.clone() }
+    }
+
     #[getter]
     fn device(&self, py: Python<'_>) -> String {
         py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())

@@ -3,7 +3,8 @@
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
 use lumencut_core::pipeline::{CpuRenderer, Request};
-use lumencut_core::scene::{Scene, SharedVolume};
+use lumencut_core::scene::{LeveledTree, Scene, SharedVolume};
+use lumencut_core::settings::TreeShown;
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_gpu::renderer::GpuRenderer;
 #[cfg(target_arch = "wasm32")]
@@ -12,10 +13,17 @@ use lumencut_gpu::screen::Screen;
 use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, sub_views};
+use crate::wireframe::draw_wireframe;
 
 /// Environment variable with stages (comma-separated) that run on the CPU instead of the GPU, to find a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
+
+/// The tree whose walls the picture of a request shows as wires.
+fn wired<'a>(scene: &'a Scene<'_>, request: &Request<'_>) -> Option<&'a LeveledTree> {
+    let is_wanted = request.settings.tree == TreeShown::Wireframe && request.images.has(Image::Picture);
+    scene.tree.as_deref().filter(|_| is_wanted && scene.volume.is_some())
+}
 
 /// The result of drawing a view.
 #[cfg(target_arch = "wasm32")]
@@ -96,6 +104,9 @@ impl Backend {
             }
             frame.image = mean.pixels();
         }
+        if let Some(tree) = wired(scene, request) {
+            draw_wireframe(&mut frame.image, request.camera, tree.tree(), request.settings);
+        }
         Ok((frame, self.unreported.take()))
     }
 
@@ -110,7 +121,8 @@ impl Backend {
         request: &Request<'_>,
         mut screen: Option<&mut Screen>,
     ) -> Result<Drawn> {
-        let is_alone = method == Method::CutSurface && request.settings.samples == 1;
+        let is_alone =
+            method == Method::CutSurface && request.settings.samples == 1 && wired(scene, request).is_none();
         if is_alone && let (Some(screen), Computer::Gpu(gpu)) = (screen.as_deref_mut(), &mut self.computer) {
             gpu.draw(scene, request, screen).await?;
             return Ok(Drawn::OnScreen);

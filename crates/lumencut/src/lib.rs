@@ -74,6 +74,7 @@ pub mod vessel_views;
 pub mod views;
 pub mod window_presets;
 pub mod windows;
+mod wireframe;
 
 pub use lumencut_core::{
     camera, error, frame, geometry, limits, math, named, pipeline, progress, reformations, scene, settings,

@@ -13,6 +13,7 @@ from lumencut.cli.batch import batch
 from lumencut.cli.bids import bids
 from lumencut.cli.compare_methods import compare_methods
 from lumencut.cli.compare_scans import compare_scans
+from lumencut.cli.convert import convert
 from lumencut.cli.demo import demo
 from lumencut.cli.doctor import doctor
 from lumencut.cli.evaluate import evaluate
@@ -80,6 +81,7 @@ ALL_COMMANDS = (
     reading_study,
     reading_results,
     info,
+    convert,
     trace,
     measure,
     compare_scans,

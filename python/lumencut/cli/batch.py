@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut.cli.batch_progress import batch_progress
 from lumencut.cli.options import FILE, device_option
+from lumencut.cli.parameters import BYTES, Quantity
 from lumencut.cli.report import complain, say, verbose_option, warn
 from lumencut.cohort.job import SOME_FAILED
 from lumencut.errors import FormatError
@@ -24,28 +25,7 @@ if TYPE_CHECKING:
 else:
     _Type = click.ParamType
 
-_UNITS = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
 _TIMES = {"": 1, "s": 1, "min": 60, "h": 3600}
-
-
-class _Quantity(_Type):
-    """A number followed by a unit."""
-
-    def __init__(self, name: str, units: dict[str, int], example: str) -> None:
-        self.name, self._units, self._example = name, units, example
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number in the smallest unit."""
-        if not isinstance(value, str):
-            return float(value)
-        found = re.fullmatch(r"([\d.]+)\s*([a-z]*?)(?:i?b)?", value.lower())
-        try:
-            return float(found[1]) * self._units[found[2]] if found else self._refuse(value, param, ctx)
-        except (ValueError, KeyError):
-            return self._refuse(value, param, ctx)
-
-    def _refuse(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> NoReturn:
-        self.fail(f"{value!r} is not of the form {self.name}, such as {self._example}", param, ctx)
 
 
 class _Part(_Type):
@@ -86,8 +66,8 @@ class _Part(_Type):
 )
 @click.option("--threads", type=click.IntRange(1, 1024), metavar="N",
               help="Threads per study; default: a fair share of the cores.")  # fmt: skip
-@click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="Memory limit per study.")
-@click.option("--time-limit", type=_Quantity("TIME", _TIMES, "90min"), default="1h", show_default=True,
+@click.option("--memory", type=Quantity("SIZE", BYTES, "8GB"), help="Memory limit per study.")
+@click.option("--time-limit", type=Quantity("TIME", _TIMES, "90min"), default="1h", show_default=True,
               help="Time limit per study; 0 for no limit.")  # fmt: skip
 @click.option("--dask", metavar="ADDRESS", help="Run on the workers of this dask scheduler.")
 @click.option(

@@ -13,11 +13,13 @@ from lumencut.cli.mistakes import check_reading
 from lumencut.cli.options import (
     coordinates_option,
     fill_gaps_option,
+    of_zarr,
     phase_option,
     reorder_option,
     resample_slices_option,
     series_option,
     unit_option,
+    zarr_options,
 )
 from lumencut.cli.report import FAILED, complain, say, verbose_option
 from lumencut.errors import LumencutError, SeriesError
@@ -36,6 +38,7 @@ _ONLY_IN_JSON |= {"kind", "error"}
 @phase_option
 @fill_gaps_option
 @resample_slices_option
+@zarr_options
 @click.option(
     "--devices", "with_devices", is_flag=True, help="List the GPUs of this machine; FILE may be left out."
 )
@@ -52,6 +55,7 @@ def info(
     resample_slices: bool,
     with_devices: bool,
     as_json: bool,
+    **chosen: Any,
 ) -> None:
     """Show what each FILE holds, what was decided and anything unusual: volumes, DICOM folders, centerlines.
 
@@ -73,7 +77,12 @@ def info(
                 found[path] = findings.of_centerlines(path, coordinates, unit, volumes, reorder=reorder)
             else:
                 found[path] = findings.of_volume(
-                    path, series=series, phase=phase, fill_gaps=fill_gaps, resample_slices=resample_slices
+                    path,
+                    series=series,
+                    phase=phase,
+                    fill_gaps=fill_gaps,
+                    resample_slices=resample_slices,
+                    **of_zarr(chosen),
                 )
         except SeriesError as error:
             found[path] = findings.of_series(path, error)

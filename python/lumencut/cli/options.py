@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from lumencut.cli.parameters import SIZE, VECTOR, Named
+from lumencut.cli.parameters import BYTES, SIZE, VECTOR, Named, Quantity
 from lumencut.errors import CameraError, FileError
 
 if TYPE_CHECKING:
@@ -136,6 +136,23 @@ def scene_arguments(command: Command) -> Command:
     return added(parts, command)
 
 
+def zarr_options(command: Command) -> Command:
+    """Add the options for OME-Zarr images."""
+    memory = click.option(
+        "--memory",
+        type=Quantity("SIZE", BYTES, "4GB"),
+        help="Most memory for the voxels of an OME-Zarr image; default: 1 GB.",
+    )
+    channel = click.option("--channel", metavar="NAME|N", help="The channel to read from an OME-Zarr image.")
+    time_point = click.option(
+        "--time-point",
+        type=click.IntRange(0),
+        metavar="N",
+        help="The time point to read from an OME-Zarr image.",
+    )
+    return added((memory, channel, time_point), command)
+
+
 def reading_options(command: Command) -> Command:
     """Add the options for reading the files, and for the device."""
     return added((file_options, device_option, threads_option), command)
@@ -151,8 +168,16 @@ def file_options(command: Command) -> Command:
         phase_option,
         fill_gaps_option,
         resample_slices_option,
+        zarr_options,
     )
     return added(parts, command)
+
+
+def of_zarr(chosen: dict[str, Any]) -> dict[str, Any]:
+    """Return the options for OME-Zarr images as arguments of `lumencut.read_volume`."""
+    memory = chosen["memory"]
+    used = {name: chosen[name] for name in ("channel", "time_point")}
+    return {"memory": None if memory is None else int(memory), **used}
 
 
 _NAMED: dict[str, Any] = {"metavar": "NAME|ID", "multiple": True}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias
+import re
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 import click
 
@@ -15,6 +16,9 @@ else:
 _Parameter: TypeAlias = "click.Parameter | None"
 _Context: TypeAlias = "click.Context | None"
 
+
+#: Bytes of each unit of memory.
+BYTES = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
 
 #: The names of ``lumencut.scene.window.WINDOW_NAMES``; copied so that ``--help`` does not import numpy.
 WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent")
@@ -232,3 +236,23 @@ WALL = WallOption()
 WINDOW = WindowOption(WINDOW_NAMES)
 RGB = Color("RRGGBB", (3,))
 RGBA = Color("RRGGBB[AA]", (3, 4))
+
+
+class Quantity(_Type):
+    """A number followed by a unit."""
+
+    def __init__(self, name: str, units: dict[str, int], example: str) -> None:
+        self.name, self._units, self._example = name, units, example
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number in the smallest unit."""
+        if not isinstance(value, str):
+            return float(value)
+        found = re.fullmatch(r"([\d.]+)\s*([a-z]*?)(?:i?b)?", value.lower())
+        try:
+            return float(found[1]) * self._units[found[2]] if found else self._refuse(value, param, ctx)
+        except (ValueError, KeyError):
+            return self._refuse(value, param, ctx)
+
+    def _refuse(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> NoReturn:
+        self.fail(f"{value!r} is not of the form {self.name}, such as {self._example}", param, ctx)

@@ -14,7 +14,7 @@ from typing import NoReturn
 import click
 
 from lumencut.base.mends import Told, as_option, written
-from lumencut.cli.signals import EndedError, ended_by_signals
+from lumencut.base.signals import EndedError, ended_by_signals
 from lumencut.errors import DeviceWarning, LineWarning, LumencutError, SpaceWarning, StudyWarning
 
 #: Exit codes other than 0 and click's 2 for wrong usage.

@@ -12,7 +12,7 @@ import click
 from lumencut.cli import vessels
 from lumencut.cli.found_vessels import found_by, shown_vessels
 from lumencut.cli.mistakes import check_files, check_options, check_radii, check_reading
-from lumencut.cli.options import described
+from lumencut.cli.options import described, of_zarr
 from lumencut.cli.report import bar, detail, warn
 
 if TYPE_CHECKING:
@@ -43,6 +43,9 @@ class SceneFiles:
     phase: str | None
     fill_gaps: bool
     resample_slices: bool
+    memory: float | None
+    channel: str | None
+    time_point: int | None
     device: Literal["auto", "cpu", "gpu"]
 
 
@@ -134,6 +137,7 @@ def volume_of(path: Path, chosen: dict[str, Any]) -> Volume:
             fill_gaps=chosen["fill_gaps"],
             resample_slices=chosen["resample_slices"],
             progress=progress,
+            **of_zarr(chosen),
         )
     detail(f"{path}: {voxels!r}")
     return voxels

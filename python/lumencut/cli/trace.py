@@ -83,6 +83,7 @@ if TYPE_CHECKING:
 @options.phase_option
 @options.fill_gaps_option
 @options.resample_slices_option
+@options.zarr_options
 @options.device_option
 @options.threads_option
 @verbose_option

@@ -121,6 +121,7 @@ def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:
             fill_gaps=chosen["fill_gaps"],
             resample_slices=chosen["resample_slices"],
             progress=progress,
+            **options.of_zarr(chosen),
         )
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from lumencut.base.checks import choice, integers, number
+from lumencut.base.cores import usable_cores
 from lumencut.base.paths import WRITABLE, checked_path
 from lumencut.base.pickles import by_name
 from lumencut.cohort.child import Outcome
@@ -330,8 +331,7 @@ def checked_shard(shard: tuple[int, int]) -> Shard:
 
 def _fair_threads(jobs: int) -> int:
     """Return the number of threads per study, so that all jobs share the cores of this machine."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, cores // jobs)
+    return max(1, usable_cores() // jobs)
 
 
 def _limits(threads: int | None, usual: int, memory: int | None, seconds: float | None) -> Limits:

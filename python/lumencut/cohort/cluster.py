@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from lumencut.base.cores import usable_cores
 from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
 from lumencut.cohort.scheduler import SchedulerWatch, briefly, quiet, within
@@ -145,8 +146,7 @@ class _Studies:
 def run_on_worker(job: Job, lock: str) -> Outcome:
     """Process a study in its own process on a worker, with an equal share of the worker's cores."""
     distributed = _package("distributed", "dask.distributed")
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    threads = job.threads or max(1, cores // distributed.get_worker().state.nthreads)
+    threads = job.threads or max(1, usable_cores() // distributed.get_worker().state.nthreads)
     child = Child(replace(job, threads=threads))
     looked = time.monotonic()
     try:

@@ -5,41 +5,48 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from lumencut._lumencut import VOLUME_FILES as _KNOWN
-from lumencut.base.checks import callback, integers
-from lumencut.base.file_kinds import kind_of
-from lumencut.base.foreign_errors import Progress, heeding, refusing
+from lumencut.base.checks import callback
+from lumencut.base.foreign_errors import Progress
 from lumencut.base.overlaps import OverlapError
-from lumencut.base.paths import checked_path
 from lumencut.base.rescale import slabs
 from lumencut.base.series_report import SeriesReport
 from lumencut.dicom.reading import (
-    Wanted,
-    is_dicom,
-    is_zip,
     list_dicom_series,
-    open_dicom,
-    opened,
 )
-from lumencut.dicom.reading.files import read_files
 from lumencut.dicom.web.address import is_address
-from lumencut.errors import FileError, FormatError
-from lumencut.files.grids import open_grid
+from lumencut.errors import FormatError
+from lumencut.files.volume_opening import (
+    existing,
+    is_pyramid,
+    log_oddities,
+    open_volume,
+    open_wanted,
+    silent,
+    wanted_of,
+)
 from lumencut.scene.images import as_volume
 from lumencut.scene.volume import Volume
 from lumencut.scene.volume_file import VolumeFile
 
-__all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
+__all__ = [
+    "SeriesReport",
+    "VolumeReport",
+    "as_volume",
+    "inspect_volume",
+    "list_series",
+    "log_oddities",
+    "open_volume",
+    "read_volume",
+]
 
 _log = logging.getLogger("lumencut")
-_HEAD = 352
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +100,9 @@ def read_volume(
     fill_gaps: bool = False,
     resample_slices: bool = False,
     segments: Iterable[int] | None = None,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> Volume:
     """Read a volume; nothing is resampled unless requested, shear and flips are kept.
@@ -100,8 +110,9 @@ def read_volume(
     Parameters
     ----------
     path : str or path
-        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file, or the address of a series or
-        study in a PACS: ``dicomweb:https://HOST/ROOT/studies/UID/series/UID``.
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file; the address of a series or study
+        in a PACS, ``dicomweb:https://HOST/ROOT/studies/UID/series/UID``; or an OME-Zarr folder, zip archive
+        or address on this machine, whose axes x, y and z are taken as LPS.
     series : str or int, optional
         Number or UID of the DICOM series to read where a folder holds several. By default the only one
         that can be an angiography volume.
@@ -119,12 +130,19 @@ def read_volume(
     segments : iterable of int, optional
         The numbers of the segments of a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer) that are read; by
         default all, which must not overlap then.
+    memory : int, optional
+        Most bytes of voxels of an OME-Zarr image in memory, 1 GB by default; other formats are read whole.
+    channel : str or int, optional
+        Name or number of the channel of an OME-Zarr image with several.
+    time_point : int, optional
+        Number of the time point of an OME-Zarr image with several.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
     Returns
     -------
     Volume
+        For OME-Zarr a :class:`VolumePyramid`, whose voxels are read when they are needed. Otherwise:
         The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
         float32 (float64 where they are stored so). A segmentation becomes a label map: each voxel has
         the number of its segment, or 0; fractional ones count from one half on. What was assumed is logged as
@@ -142,36 +160,21 @@ def read_volume(
         For a PACS that cannot be reached, rejects the request, or does not send the complete series.
     """
     callback(FormatError, "progress", progress)
-    counted = progress if progress is not None else _silent
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+    counted = progress if progress is not None else silent
+    wanted = wanted_of(series, phase, fill_gaps, resample_slices, segments, memory, channel, time_point)
+    if is_pyramid(path, wanted):
+        from lumencut.files.ome_zarr.opening import notes_on, open_pyramid
+
+        pyramid, multiscale = open_pyramid(path, wanted)
+        for note in notes_on(multiscale, pyramid):
+            _log.warning("%s: %s", path, note)
+        return pyramid
+    file = open_wanted(path, wanted, counted)
     volume = file.volume(counted)
     if not file.format.startswith("DICOM"):
         counted(volume.size[2], volume.size[2])
     log_oddities(file)
     return volume
-
-
-def open_volume(
-    path: str | os.PathLike[str],
-    *,
-    series: str | int | None = None,
-    phase: str | float | None = None,
-    fill_gaps: bool = False,
-    resample_slices: bool = False,
-    segments: Iterable[int] | None = None,
-    progress: Progress | None = None,
-) -> VolumeFile:
-    """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
-    counted = progress if progress is not None else _silent
-    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
-
-
-def log_oddities(file: VolumeFile) -> None:
-    """Log the assumptions about a file."""
-    for note in file.notes:
-        _log.warning("%s: %s", file.path, note)
-    for remark in file.remarks:
-        _log.info("%s: %s", file.path, remark)
 
 
 def inspect_volume(
@@ -182,6 +185,9 @@ def inspect_volume(
     fill_gaps: bool = False,
     resample_slices: bool = False,
     values: bool = True,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> VolumeReport:
     """Report what a volume file holds, and anything unusual.
@@ -192,7 +198,7 @@ def inspect_volume(
         A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
     series : str or int, optional
         Number or UID of the DICOM series where a folder holds several.
-    phase, fill_gaps, resample_slices
+    phase, fill_gaps, resample_slices, memory, channel, time_point
         As for `read_volume`.
     values : bool, default True
         Read the voxels too, to check them and find their range; False reads headers only.
@@ -205,8 +211,10 @@ def inspect_volume(
         Format, grid, values and oddities.
     """
     callback(FormatError, "progress", progress)
-    counted = progress if progress is not None else _silent
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    counted = progress if progress is not None else silent
+    file = open_wanted(
+        path, wanted_of(series, phase, fill_gaps, resample_slices, None, memory, channel, time_point), counted
+    )
     return _report(file, _values(file, counted) if values else None)
 
 
@@ -217,12 +225,17 @@ def inspected_volume(
     phase: str | float | None = None,
     fill_gaps: bool = False,
     resample_slices: bool = False,
+    memory: int | None = None,
+    channel: str | int | None = None,
+    time_point: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[VolumeReport, Volume]:
     """Return the report of `inspect_volume` and the volume, with the same parameters and errors."""
     callback(FormatError, "progress", progress)
-    counted = progress if progress is not None else _silent
-    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    counted = progress if progress is not None else silent
+    file = open_wanted(
+        path, wanted_of(series, phase, fill_gaps, resample_slices, None, memory, channel, time_point), counted
+    )
     volume = _values(file, counted)
     report = _report(file, volume)
     if volume is None:
@@ -279,11 +292,7 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
         # Keep a reference while reading: the temporary folder is removed together with the last one.
         folder = fetched(path)
         return list_dicom_series(folder.path)
-    return list_dicom_series(_existing(path))
-
-
-def _silent(done: int, total: int) -> None:
-    """Ignore progress."""
+    return list_dicom_series(existing(path))
 
 
 def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, float] | None:
@@ -296,88 +305,3 @@ def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, flo
     if odd:
         notes.append(f"{odd} of {array.size} voxels are not finite (NaN or infinite)")
     return (low, high) if low <= high else None
-
-
-def _existing(given: str | os.PathLike[str]) -> Path:
-    path = checked_path(given, _KNOWN)
-    if not path.exists():
-        raise FileError(str(path), "no such file or folder", _KNOWN)
-    return path
-
-
-def _wanted(
-    series: object,
-    phase: object,
-    fill_gaps: bool,
-    resample_slices: bool,
-    segments: Iterable[int] | None = None,
-) -> Wanted:
-    chosen = None if segments is None else _numbers_of(segments)
-    return Wanted(_text(series), _text(phase), fill_gaps, resample_slices, chosen)
-
-
-def _numbers_of(segments: Any) -> tuple[int, ...]:
-    """Return the checked numbers of segments."""
-    try:
-        listed = list(segments)
-    except TypeError as error:
-        raise FormatError("segments", f"{segments!r:.80}", "numbers of segments") from error
-    return integers(FormatError, "segments", listed, 1, 65535, len(listed))
-
-
-def _text(value: object) -> str | None:
-    return None if value is None else str(value)
-
-
-def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
-    """Choose the reader by content, or by name if the content is ambiguous."""
-    if is_address(given):
-        return _fetched(given, wanted, progress)
-    path = _existing(given)
-    notes: list[str] = []
-    with heeding(progress) as counted, refusing(path, "volume", notes):
-        if path.is_dir() or _is_archive(path):
-            return open_dicom(path, wanted, counted).checked()
-        with path.open("rb") as opened_file:
-            head = opened_file.read(_HEAD)
-        if not head:
-            raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
-        if is_dicom(head) and not head.startswith(b"NRRD"):
-            file = open_dicom(path, wanted, counted)
-        elif (grid := open_grid(path, wanted.segments)) is not None:
-            file = grid
-        else:
-            raise _unknown(path)
-        if wanted.segments is not None and not file.is_segmentation:
-            raise _no_segmentation(path)
-    file.notes.extend(note for note in notes if note not in file.notes)
-    return file.checked()
-
-
-def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
-    """Return a volume of a PACS, whose files stay in a temporary folder as long as it exists."""
-    from lumencut.dicom.web.source import fetched
-
-    with heeding(progress) as counted:
-        folder = fetched(given, wanted.series, counted)
-        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, counted)).checked()
-    return replace(file, holds=folder)
-
-
-def _unknown(path: Path) -> FormatError:
-    kind = kind_of(path)
-    if kind is None:
-        return FormatError(str(path), "a file of unknown format", _KNOWN)
-    is_readable = kind.role == "centerlines" and not kind.mend
-    mend = "read centerlines with read_centerlines" if is_readable else kind.mend
-    return FormatError(str(path), kind.name, _KNOWN, mend)
-
-
-def _no_segmentation(path: Path) -> FormatError:
-    expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), to choose segments"
-    return FormatError(str(path), "no segmentation", expected, "leave out segments")
-
-
-def _is_archive(path: Path) -> bool:
-    with path.open("rb") as file:
-        return is_zip(file.read(4))

@@ -21,6 +21,9 @@ from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
 from lumencut.scene.wall_level import Wall, wall_level
 
+#: How far from a centerline sections read voxels: its largest radius times the first, and voxels in addition.
+_REACH, _REACH_IN_VOXELS = 6.0, 20.0
+
 #: Called with the work done and the total work.
 Progress = Callable[[int, int], object]
 
@@ -93,7 +96,8 @@ def measure(
     _check_vessel(vessel)
     if not isinstance(tree, (VesselTree, type(None))):
         raise VesselTreeError("tree of the vessel", type(tree).__name__, "a VesselTree or None")
-    grid, along = as_volume(volume), number(SettingsError, "step", step)
+    whole, along = as_volume(volume), number(SettingsError, "step", step)
+    grid = _around_vessel(whole, vessel)
     given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
     others = None if tree is None else [(one.points, one.radius) for one in tree]
     level = wall_level(wall)
@@ -101,7 +105,7 @@ def measure(
     estimates = None if others is None else _tree_estimates(grid, tree, others, along, given, level)
     measured = (vessel.points, vessel.radius)
     core = _lumencut.measure(grid, measured, along, given, others, level, estimates, progress)
-    return Profile(core, vessel, grid._origin)
+    return Profile(core, vessel, whole._origin)
 
 
 def _tree_estimates(
@@ -207,12 +211,14 @@ def cross_section(
         For anything that is not a volume.
     """
     _check_vessel(vessel)
-    grid = as_volume(volume)
+    whole = as_volume(volume)
     place = number(MeasuringError, "place on the vessel", at)
     spacing = number(
-        SettingsError, "pixel_spacing", grid.spacing.min() / 2 if pixel_spacing is None else pixel_spacing
+        SettingsError, "pixel_spacing", whole.spacing.min() / 2 if pixel_spacing is None else pixel_spacing
     )
     side = number(SettingsError, "size of the cross-section", size)
+    # Half of the diagonal of the section, and as much for a measured plane next to the line.
+    grid = whole._around(_middle(vessel, place), 2 * side, spacing)
     if not isinstance(profile, (Profile, type(None))):
         raise MeasuringError("profile of the cross-section", type(profile).__name__, "a Profile or None")
     value, position, normal, arc_length = _lumencut.cross_section(
@@ -223,6 +229,19 @@ def cross_section(
         None if profile is None else profile._core,
     )
     return CrossSection(value, position, np.array(normal), arc_length, spacing)
+
+
+def _middle(vessel: Vessel, at: float) -> npt.NDArray[np.float64]:
+    """Return the point at an arc length of a vessel (mm, LPS)."""
+    steps = np.linalg.norm(np.diff(vessel.points, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.array([np.interp(at, along, axis) for axis in vessel.points.T])
+
+
+def _around_vessel(volume: Volume, vessel: Vessel) -> Volume:
+    """Return the volume to read for the sections of a vessel: of a pyramid, what lies within their reach."""
+    widest = 0.0 if vessel.radius is None else float(np.max(vessel.radius))
+    return volume._around(vessel.points, _REACH * widest + _REACH_IN_VOXELS * float(volume.spacing.max()))
 
 
 def _check_vessel(vessel: Vessel) -> None:

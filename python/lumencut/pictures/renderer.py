@@ -21,6 +21,7 @@ from lumencut.scene.tree_windows import SceneWindows
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_names import id_or_name
 from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.view_extent import PartsInView
 from lumencut.scene.volume import Volume
 from lumencut.scene.window import Window
 
@@ -214,9 +215,8 @@ class Renderer:
         names = asked if asked is not None else self._at_once(settings)
         callback(SettingsError, "progress", progress)
         along = self._along.of_rim(settings)
-        buffers = self._core.render(
-            self._volume, camera, checked(settings), names, progress, None, along
-        )
+        core, volume = self._parts.shown(self._volume, self._tree is not None, camera, settings)
+        buffers = core.render(volume, camera, checked(settings), names, progress, None, along)
         return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(
@@ -278,6 +278,11 @@ class Renderer:
             arrays["_distance"] = lambda: core.render(None, camera, used, ["distance"])["distance"]
         requested = None if asked is None else tuple(asked)
         return Frame(camera, buffers["timings"], **arrays, _asked=requested, _source=source)
+
+    @functools.cached_property
+    def _parts(self) -> PartsInView:
+        """The parts of a pyramid that views show."""
+        return PartsInView(self._core)
 
     def _with_source(
         self, settings: Settings, asked: list[str] | None, method: str = "csr"

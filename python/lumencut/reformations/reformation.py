@@ -18,14 +18,14 @@ from lumencut.pictures.picture_file import check_dicom_alone, picture_as_png, sa
 from lumencut.pictures.renderer import Renderer
 from lumencut.scene.checked_settings import checked
 from lumencut.scene.settings import Settings
+from lumencut.scene.volume import Volume
+from lumencut.scene.volume_pyramid import VolumePyramid
 from lumencut.scene.window import Window
 
 if TYPE_CHECKING:
     from lumencut.dicom.writing.picture import Picture
     from lumencut.pictures.reformation_recipe import ReformationRecipe
     from lumencut.scene.study import Study
-    from lumencut.scene.volume import Volume
-
 
 #: Narrower pictures (pixels) get no label with a sentence.
 _WIDE = 400
@@ -113,9 +113,20 @@ class Reformation:
         value: npt.NDArray[np.float32] = self._look(self._given, "value")["value"]
         return value
 
+    @functools.cached_property
+    def _source(self) -> tuple[_lumencut.Renderer, Volume | None]:
+        """What samples the pixels, and the volume to read: of a pyramid, only what the pixels show."""
+        core, volume = self._renderer._core, self._renderer.volume
+        if not isinstance(volume, VolumePyramid):
+            return core, volume
+        slab = self._given.slab
+        places = self.position[np.isfinite(self.position).all(axis=-1)]
+        reach = 0.0 if slab is None else slab.thickness / 2
+        return core.with_other_volume(), volume.part(places, reach, self.pixel_spacing)
+
     def _look(self, settings: Settings, *images: str) -> dict[str, Any]:
-        volume = self._renderer.volume
-        made: dict[str, Any] = self._renderer._core.look(volume, self._core, checked(settings), list(images))
+        core, volume = self._source
+        made: dict[str, Any] = core.look(volume, self._core, checked(settings), list(images))
         self.timings = made.pop("timings")
         return made
 

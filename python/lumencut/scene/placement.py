@@ -220,7 +220,7 @@ def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stackl
     `stacklevel` counts as for `warnings.warn` from the caller.
     """
     lines = Lines.of((vessel.points, vessel.radius) for vessel in tree)
-    better = _lumencut.better_place(lines.points, lines.radii, volume)
+    better = _lumencut.better_place(lines.points, lines.radii, volume._overview)
     if better is not None:
         warnings.warn(SpaceWarning(_misread(subject, *better)), stacklevel=stacklevel + 1)
     return better is not None

@@ -19,6 +19,7 @@ DistanceRuleName: TypeAlias = Literal["local", "whole curve"]
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
 RimName: TypeAlias = Literal["diameter", "narrowing", "deviation", "uncertainty"]
+TreeName: TypeAlias = Literal["hidden", "wireframe"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 ContextFromName: TypeAlias = Literal["cut", "whole"]
 
@@ -91,6 +92,10 @@ class Settings(CheckedSettings):
         graded stenoses (%), ``deviation`` from their reference (mm) or ``uncertainty`` of the diameter
         (mm). Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from
         radii; all else needs profiles. Labels of the picture explain the colours. If not given: no rim.
+    tree : {"hidden", "wireframe"}, default "hidden"
+        Vessel walls over the picture (name): ``hidden``, or ``wireframe`` for rings across and lines along
+        the vessels. Wires show the radii of the centerlines, ``unknown_radius`` where there is none; only
+        the picture has them.
     background : (int, int, int, int), default (0, 0, 0, 255)
         Colour of pixels that show nothing else. Red, green, blue and opacity.
     slab : Slab, optional
@@ -167,6 +172,7 @@ class Settings(CheckedSettings):
     silhouette_reach: float | None = 10.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     rim: RimName | None = None
+    tree: TreeName = "hidden"
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
     focus: Focus | None = None

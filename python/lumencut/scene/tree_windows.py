@@ -63,4 +63,4 @@ class SceneWindows:
     def _shown(self) -> Volume:
         if self._volume is None:
             raise VolumeError("volume of the renderer", "None", "a volume to take the window from")
-        return self._volume
+        return self._volume._overview

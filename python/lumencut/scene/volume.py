@@ -108,14 +108,14 @@ class Volume(KeepsReadOnly):
     @property
     def dtype(self) -> np.dtype[Any]:
         """Type of the voxels."""
-        return self._array.dtype
+        return self.array.dtype
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
         """Return the voxels, shape (nk, nj, ni): themselves, unless another type or a copy is asked for."""
-        wanted = self._array.dtype if dtype is None else np.dtype(dtype)
-        if copy is False and wanted != self._array.dtype:
-            raise ValueError(f"a copy is needed for voxels of type {self._array.dtype} as {wanted}")
-        return self._array.astype(wanted, copy=bool(copy))
+        wanted = self.array.dtype if dtype is None else np.dtype(dtype)
+        if copy is False and wanted != self.array.dtype:
+            raise ValueError(f"a copy is needed for voxels of type {self.array.dtype} as {wanted}")
+        return self.array.astype(wanted, copy=bool(copy))
 
     @property
     def world_from_index(self) -> npt.NDArray[np.float64]:
@@ -125,7 +125,7 @@ class Volume(KeepsReadOnly):
     @property
     def size(self) -> tuple[int, int, int]:
         """Number of voxels along i, j, k."""
-        nk, nj, ni = self._array.shape
+        nk, nj, ni = self.array.shape
         return ni, nj, nk
 
     @property
@@ -209,14 +209,14 @@ class Volume(KeepsReadOnly):
     @property
     def _voxels(self) -> npt.NDArray[Any]:
         """The voxels in memory order, a view of shape (n,)."""
-        slowest_first = np.argsort([-s for s in self._array.strides], kind="stable")
-        return self._array.transpose(slowest_first).reshape(-1)
+        slowest_first = np.argsort([-s for s in self.array.strides], kind="stable")
+        return self.array.transpose(slowest_first).reshape(-1)
 
     @property
     def _strides(self) -> tuple[int, ...]:
         """Distance between neighbours along i, j, k, in array elements."""
-        pairs = zip(self._array.strides, self._array.shape, strict=True)
-        return tuple(s // self._array.itemsize if n > 1 else 0 for s, n in pairs)[::-1]
+        pairs = zip(self.array.strides, self.array.shape, strict=True)
+        return tuple(s // self.array.itemsize if n > 1 else 0 for s, n in pairs)[::-1]
 
     @property
     def _affine_rows(self) -> list[list[float]]:
@@ -229,12 +229,24 @@ class Volume(KeepsReadOnly):
 
         return _lumencut.contains(self, _points(points))
 
+    def _around(self, points: npt.ArrayLike, margin: float = 0.0, spacing: float | None = None) -> Volume:
+        """Return the volume to read within `margin` mm of points, at positions `spacing` mm apart.
+
+        That is the volume itself, as all of it is in memory.
+        """
+        return self
+
+    @property
+    def _overview(self) -> Volume:
+        """The volume by which windows and spaces are judged: all of it, or a coarse level."""
+        return self
+
     def __repr__(self) -> str:
         ni, nj, nk = self.size
         spacing = " × ".join(f"{s:.4g}" for s in self.spacing)
         assumed = "" if self._states_spacing else " (assumed)"
         placed = "" if self._states_orientation else ", orientation not stated"
-        return f"Volume({ni} × {nj} × {nk} {self._array.dtype}, spacing {spacing} mm{assumed}{placed})"
+        return f"Volume({ni} × {nj} × {nk} {self.array.dtype}, spacing {spacing} mm{assumed}{placed})"
 
 
 def _stated(name: str, given: bool | None, otherwise: bool) -> bool:

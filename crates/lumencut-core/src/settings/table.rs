@@ -4,7 +4,7 @@
 use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
 use super::focus::Focus;
-use super::rules::{DistanceRule, LevelChoice, RimValue, SilhouetteRule};
+use super::rules::{DistanceRule, LevelChoice, RimValue, SilhouetteRule, TreeShown};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
@@ -119,6 +119,11 @@ settings! {
         /// Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from radii; all
         /// else needs profiles. Labels of the picture explain the colours.
         rim: Option<RimValue> = None, open("no rim");
+
+        /// Vessel walls over the picture (name): `hidden`, or `wireframe` for rings across and lines along the vessels.
+        ///
+        /// Wires show the radii of the centerlines, `unknown_radius` where there is none; only the picture has them.
+        tree: TreeShown = TreeShown::Hidden;
 
         /// Colour of pixels that show nothing else.
         ///

@@ -28,13 +28,16 @@ from lumencut.scene.scan_details import ScanDetails
 
 @dataclass(frozen=True)
 class Wanted:
-    """The requested series, phase, segments and remedies for a DICOM folder."""
+    """What is requested of a volume: series, phase, segments, remedies; a part of OME-Zarr."""
 
     series: str | None = None
     phase: str | None = None
     fill_gaps: bool = False
     resample_slices: bool = False
     segments: tuple[int, ...] | None = None
+    memory: int | None = None
+    channel: str | int | None = None
+    time_point: int | None = None
 
 
 @dataclass(frozen=True, eq=False)

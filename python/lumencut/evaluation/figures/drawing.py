@@ -30,10 +30,6 @@ ZONE_COLORS = (
 LINE = (230, 40, 40)
 #: Share of the pixels whose values span the grey scale (%).
 _SPAN = (1, 99)
-#: Sides of a tube's cross-section, and distance between its rings (radii).
-_SIDES, _RING_STEP = 12, 1.5
-#: Colour strength of wires on the far side of a tube.
-_FAR_SIDE = 0.35
 
 
 def grey(values: npt.NDArray[np.floating]) -> Picture:
@@ -80,54 +76,7 @@ def zones(vessel: npt.NDArray[np.integer]) -> Picture:
 
 def with_centerlines(picture: Picture, tree: VesselTree, camera: Camera) -> Picture:
     """Return a picture with the centerlines of a tree over it."""
-    lines = [(_pixels(vessel.points, camera), 1.0) for vessel in tree]
-    return _drawn(picture, lines)
-
-
-def with_wireframe(picture: Picture, tree: VesselTree, camera: Camera) -> Picture:
-    """Return a picture with the vessel walls of a tree over it, as rings and lines along the vessels."""
-    lines = []
-    for vessel in tree:
-        radius = np.ones(len(vessel.points)) if vessel.radius is None else np.maximum(vessel.radius, 0.5)
-        wall, outwards = _tube(vessel.points, radius)
-        faces = np.einsum("nsk,k->ns", outwards, np.asarray(camera.direction)) < 0
-        rings = _ring_places(vessel.points, radius)
-        strips = [(wall[at], faces[at]) for at in rings]
-        strips += [(wall[:, side], faces[:, side]) for side in range(_SIDES)]
-        for points, is_near in strips:
-            lines += [(_pixels(points, camera), 1.0 if is_near.mean() > 0.5 else _FAR_SIDE)]
-    lines.sort(key=lambda line: line[1])
-    return _drawn(picture, lines)
-
-
-def _tube(
-    points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Return points on the wall, (n, sides + 1, 3), and the directions to them from the centerline."""
-    tangent = np.gradient(points, axis=0)
-    tangent /= np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), 1e-12)
-    normal = np.cross(tangent[0], np.eye(3)[np.abs(tangent[0]).argmin()])
-    frames = []
-    for along in tangent:
-        # The normal turns with the vessel, but not around it.
-        normal = normal - (normal @ along) * along
-        normal /= max(np.linalg.norm(normal), 1e-12)
-        frames.append((normal, np.cross(along, normal)))
-    first, second = (np.array(axis) for axis in zip(*frames, strict=True))
-    angle = np.linspace(0, 2 * np.pi, _SIDES + 1)
-    outwards = first[:, None] * np.cos(angle)[:, None] + second[:, None] * np.sin(angle)[:, None]
-    return points[:, None] + radius[:, None, None] * outwards, outwards
-
-
-def _ring_places(points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64]) -> list[int]:
-    """Return the points of a vessel that get a ring."""
-    kept, apart = [0], 0.0
-    for i in range(1, len(points)):
-        apart += float(np.linalg.norm(points[i] - points[i - 1]))
-        if apart >= _RING_STEP * radius[i]:
-            kept.append(i)
-            apart = 0.0
-    return kept
+    return _drawn(picture, [_pixels(vessel.points, camera) for vessel in tree])
 
 
 def _pixels(points: npt.NDArray[np.float64], camera: Camera) -> npt.NDArray[np.float64]:
@@ -135,15 +84,15 @@ def _pixels(points: npt.NDArray[np.float64], camera: Camera) -> npt.NDArray[np.f
     return camera.project(points)[:, :2] + 0.5
 
 
-def _drawn(picture: Picture, lines: list[tuple[npt.NDArray[np.float64], float]]) -> Picture:
-    """Return a picture with lines of a strength over it, smoothed by drawing them four times as large."""
+def _drawn(picture: Picture, lines: list[npt.NDArray[np.float64]]) -> Picture:
+    """Return a picture with lines over it, smoothed by drawing them four times as large."""
     from PIL import Image, ImageDraw
 
     enlarged, (height, width) = 4, picture.shape[:2]
     cover = Image.new("L", (width * enlarged, height * enlarged), 0)
     draw = ImageDraw.Draw(cover)
-    for places, strength in lines:
+    for places in lines:
         corners = [(float(x), float(y)) for x, y in places * enlarged]
-        draw.line(corners, fill=round(255 * strength), width=enlarged + 1)
+        draw.line(corners, fill=255, width=enlarged + 1)
     small = np.asarray(cover.resize((width, height), Image.Resampling.BOX), float)[..., None] / 255
     return np.asarray(picture * (1 - small) + np.array(LINE) * small, np.uint8)

@@ -19,7 +19,6 @@ def cost_of_a_knot(scenes: Scenes) -> Figure:
     renderer = scenes.trefoil
     camera, tree = scenes.anterior(renderer), _tree(renderer)
     found = {rule: scenes.surface(renderer, camera, settings_of(rule)) for rule in RULES}
-    black = np.zeros((*scenes.size[::-1], 3), np.uint8)
     side = camera.pixel_spacing
     literal = settings_of("paper", distance_rule="whole curve")
     hidden = renderer.cut_surface(camera, literal, images=["depth"]).depth
@@ -28,7 +27,7 @@ def cost_of_a_knot(scenes: Scenes) -> Figure:
         "A cost orders the surfaces that lie above each other along a ray; the smallest one is shown. The "
         "knot crosses itself three times.",
         [
-            Panel("a", "The trefoil knot as a wireframe.", {"": drawing.with_wireframe(black, tree, camera)}),
+            Panel("a", "The trefoil knot as a wireframe.", {"": scenes.wireframe(renderer, camera, None)}),
             Panel(
                 "b",
                 "Depth of the cut surface; near is bright.",

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from lumencut.evaluation.figures import drawing
 from lumencut.evaluation.figures.drawing import Picture
 from lumencut.evaluation.figures.figure import Figure, Panel
 from lumencut.evaluation.figures.scenes import RULES, Scenes, settings_of
@@ -39,9 +38,8 @@ def bifurcation(scenes: Scenes) -> Figure:
             Camera.inferior(scene, size),
         ),
     ]
-    panels = [
-        Panel("a", "The whole volume (DVR), and the vessel walls as a wireframe.", {"": _rendered(scenes)})
-    ]
+    walls = {"": scenes.wireframe(renderer, front, "dvr")}
+    panels = [Panel("a", "The whole volume (DVR), and the vessel walls as a wireframe.", walls)]
     for part, caption, camera in views:
         panels.append(Panel(part, caption, _by_both(renderer, camera)))
     shown = "the CT of the demo" if scenes.has_ct else "a phantom, as the CT of the demo was not available"
@@ -77,16 +75,6 @@ def neck(scenes: Scenes) -> Figure:
         Panel("c", "CSR: nearer vessels lie in front.", _by_both(renderer, camera, context=None)),
     ]
     return Figure("Figure 8", "Vessels of the neck: a phantom.", panels)
-
-
-def _rendered(scenes: Scenes) -> Picture:
-    renderer = scenes.aorta
-    camera = scenes.anterior(renderer)
-    whole = Renderer(renderer.volume, None, scenes.device)
-    frame = whole.render(camera, Settings(context="dvr"), images=["image"])
-    tree = renderer.tree
-    assert tree is not None
-    return drawing.with_wireframe(frame.image[..., :3], tree, camera)
 
 
 def _by_both(renderer: Renderer, camera: Camera, **changes: object) -> dict[str, Picture]:

@@ -12,15 +12,19 @@ from lumencut import phantom
 from lumencut.demo import demo_scene
 from lumencut.pictures.renderer import Renderer
 from lumencut.scene.camera import Camera
+from lumencut.scene.focus import Focus
 from lumencut.scene.settings import Settings
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 
 if TYPE_CHECKING:
+    from lumencut.evaluation.figures.drawing import Picture
     from lumencut.pictures.frame import Frame
 
 #: The two sets of rules that figures compare, with their headings.
 RULES = {"paper": "the paper's rules", "default": "the defaults"}
+#: The cut surface would start this far inside the walls, so it is nowhere.
+_NO_CUT = Focus(margin=-1000.0, fade=0.0)
 #: Scale of the phantoms of figures 7 and 8; quick figures use the smaller one.
 _SCALES = {False: 0.5, True: 0.25}
 
@@ -85,12 +89,20 @@ class Scenes:
 
     @functools.cached_property
     def trefoil(self) -> Renderer:
-        """A trefoil knot, without a volume."""
-        return Renderer(None, phantom.trefoil().tree, self.device)
+        """A trefoil knot."""
+        made = phantom.trefoil()
+        return Renderer(made.volume, made.tree, self.device)
 
     def anterior(self, renderer: Renderer) -> Camera:
         """Return the view from the front."""
         return Camera.anterior(renderer.scene, self.size)
+
+    def wireframe(self, renderer: Renderer, camera: Camera, context: Literal["dvr"] | None) -> Picture:
+        """Return the vessel walls as a wireframe over the context, without the cut surface."""
+        settings = Settings(
+            focus=_NO_CUT, context=context, context_from="whole", silhouettes=False, tree="wireframe"
+        )
+        return renderer.render(camera, settings, images=["image"]).image[..., :3]
 
     def surface(self, renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
         """Return the cut surface with all that the figures show of it."""
