@@ -18,11 +18,7 @@ pub use choices::Choices;
 pub use context::{Context, ContextFrom, ContextMode, ContextName};
 pub use focus::Focus;
 pub use looks::{LOOKS, Look};
-<<<<<<< HEAD
-pub use rules::{DistanceRule, LevelChoice, RimValue, SilhouetteRule};
-=======
-pub use rules::{DistanceRule, LevelChoice, SilhouetteRule, TreeShown};
->>>>>>> 133ca111cc62a98645bb6e7fc2e1c35a427d0189
+pub use rules::{DistanceRule, LevelChoice, RimValue, SilhouetteRule, TreeShown};
 pub use setting::Setting;
 pub use slab::{Slab, SlabMode};
 pub use table::{ContextChoices, MAX_LEVELS, Settings, table};

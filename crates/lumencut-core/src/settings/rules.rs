@@ -29,7 +29,6 @@ impl Named for DistanceRule {
         &[("local", Self::Local), ("whole curve", Self::WholeCurve)];
 }
 
-<<<<<<< HEAD
 /// The values that a rim around the vessels shows by colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RimValue {
@@ -50,7 +49,8 @@ impl Named for RimValue {
         ("deviation", Self::Deviation),
         ("uncertainty", Self::Uncertainty),
     ];
-=======
+}
+
 /// How a picture shows the walls of the vessel tree, besides cutting them open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TreeShown {
@@ -63,7 +63,6 @@ pub enum TreeShown {
 impl Named for TreeShown {
     const NAMES: &'static [(&'static str, Self)] =
         &[("hidden", Self::Hidden), ("wireframe", Self::Wireframe)];
->>>>>>> 133ca111cc62a98645bb6e7fc2e1c35a427d0189
 }
 
 /// The rule that decides where silhouettes are drawn.
