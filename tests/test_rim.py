@@ -11,8 +11,8 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import phantom as phantoms
 from lumencut import Camera, MeasuringError, Renderer, Settings, Vessel, VesselTree, Volume
+from lumencut import phantom as phantoms
 from lumencut.cli import main
 from lumencut.pictures.recipe import read_recipe
 from scene_files import write_volume_of
@@ -74,9 +74,7 @@ def test_values_other_than_diameters_come_from_profiles(stenosis, profile, rim):
     spot = profile.narrowest()
     before, _ = profile.suggested_references(spot.arc_length)
     graded = profile.stenosis(spot.arc_length, before.arc_length)
-    frame = lumencut.render(
-        stenosis.volume, stenosis.tree, settings=settings, profiles=[(profile, [graded])]
-    )
+    frame = lumencut.render(stenosis.volume, stenosis.tree, settings=settings, profiles=[(profile, [graded])])
     plain = lumencut.render(stenosis.volume, stenosis.tree)
     changed = (frame.image != plain.image).any(axis=2)
     assert 50 < changed.sum() < 0.2 * changed.size
@@ -98,7 +96,7 @@ def test_labels_explain_the_colours_and_frames_can_be_pickled(stenosis):
 
 
 def test_bad_profiles_are_refused(stenosis, profile):
-    other = VesselTree([Vessel(stenosis.tree[0].points + (8, 0, 0), 3.0)])
+    other = VesselTree([Vessel(stenosis.tree[0].points + np.array([8.0, 0, 0]), 3.0)])
     for given, tree, found in [
         ([profile], other, "follows no vessel of the tree"),
         ([profile, profile], stenosis.tree, "two profiles of vessel 0"),

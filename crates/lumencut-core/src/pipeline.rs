@@ -72,7 +72,8 @@ impl<'a> Request<'a> {
 
     /// Rejects a picture with a rim without a colour for each vessel.
     fn check_rim(&self, scene: &Scene, count: usize) -> Result<()> {
-        let is_drawn = self.settings.rim.is_some() && scene.volume.is_some() && self.images.has(Image::Picture);
+        let is_drawn =
+            self.settings.rim.is_some() && scene.volume.is_some() && self.images.has(Image::Picture);
         let known = self.rim.map_or(0, RimColors::vessels);
         if !is_drawn || known == count {
             return Ok(());

@@ -76,8 +76,7 @@ fn both(phantom: &Phantom, spacing: f64) -> [Frame; 2] {
     let camera = view([0.3, 1.0, 0.2], [96, 80], spacing);
     let colors = RimColors::new(&vec![vec![[0, 255, 40, 255]; 9]; phantom.tree.vessels().len()]);
     [Settings::default(), with_rim()].map(|settings| {
-        let request =
-            Request { images: IMAGES, rim: Some(&colors), ..Request::new(&camera, &settings) };
+        let request = Request { images: IMAGES, rim: Some(&colors), ..Request::new(&camera, &settings) };
         CpuRenderer::default().render(&scene, &request).unwrap()
     })
 }

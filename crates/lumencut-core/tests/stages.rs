@@ -202,8 +202,13 @@ fn the_picture_follows_window_opacity_and_background() {
     let mut image = vec![[0; 4]; 5];
     let view = on_cpu(&camera);
     let value = [f32::NAN, 300.0, 100.0, 50.0, -50.0];
-    let layers =
-        Layers { value: &value, strength: Some(&[0.0, 0.0, 1.0, 0.0, 1.0]), focus: None, rim: None, context: None };
+    let layers = Layers {
+        value: &value,
+        strength: Some(&[0.0, 0.0, 1.0, 0.0, 1.0]),
+        focus: None,
+        rim: None,
+        context: None,
+    };
     composite(&view, &CompositeParameters::new(&settings), &layers, &mut image).unwrap();
     assert_eq!(image[0], [10, 20, 30, 255], "outside the volume: background");
     assert_eq!(image[1], [255, 255, 255, 255], "above the window: white");

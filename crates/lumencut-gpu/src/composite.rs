@@ -72,8 +72,7 @@ impl Composite {
             Stage::new(device, ROOM, &constants)
         });
         let or_nothing = |layer: Option<_>| layer.unwrap_or(&self.nothing);
-        let [value, strength, focus, rim, context] =
-            [value, strength, focus, rim, context].map(or_nothing);
+        let [value, strength, focus, rim, context] = [value, strength, focus, rim, context].map(or_nothing);
         let buffers = [view, context, image, &self.parameters, value, strength, focus, rim];
         recording.run(stage, &buffers.map(Buffer::as_entire_binding), groups(size, GROUP));
     }

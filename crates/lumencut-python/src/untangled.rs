@@ -68,7 +68,11 @@ impl Untangled {
     }
 
     /// The map of the tree as coloured lines, RGBA, shape (H, W, 4).
-    fn network<'py>(&self, py: Python<'py>, along: &Bound<'py, ValuesAlong>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    fn network<'py>(
+        &self,
+        py: Python<'py>,
+        along: &Bound<'py, ValuesAlong>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         use lumencut::reformations::Layout as _;
 
         let ([width, height], along) = (self.0.size(), along.get());

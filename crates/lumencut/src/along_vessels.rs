@@ -185,9 +185,11 @@ pub(crate) fn measured(profile: &Profile, at: f64) -> [f64; 2] {
 
 fn without_values(kind: RimValue) -> Error {
     let (found, expected, mend) = match kind {
-        RimValue::Diameter => {
-            ("neither radii nor profiles", "radii or profiles", "measure the vessels, and give their profiles")
-        }
+        RimValue::Diameter => (
+            "neither radii nor profiles",
+            "radii or profiles",
+            "measure the vessels, and give their profiles",
+        ),
         RimValue::Narrowing | RimValue::Deviation => (
             "no graded stenosis",
             "profiles with a graded stenosis",
@@ -208,9 +210,8 @@ const NEAR: f64 = 2.0;
 /// The vessel on which a profile was measured. Fails with [`ErrorKind::Measuring`] if there is none.
 pub fn vessel_of(profile: &Profile, vessels: &[Vessel]) -> Result<usize> {
     let length = profile.arc_length[profile.len() - 1];
-    let ends_alike = |vessel: &Vessel| {
-        vessel.arc_length().last().is_some_and(|end| (end - length).abs() <= LENGTH_SLACK)
-    };
+    let ends_alike =
+        |vessel: &Vessel| vessel.arc_length().last().is_some_and(|end| (end - length).abs() <= LENGTH_SLACK);
     let apart = |vessel: &Vessel| {
         let point = |at: f64| LinePlace::at(vessel.arc_length(), at).point(vessel.points());
         let sections = profile.arc_length.iter().zip(&profile.center);

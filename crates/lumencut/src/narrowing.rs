@@ -63,9 +63,8 @@ fn reach(stenosis: &Stenosis) -> RangeInclusive<f64> {
     let known = if stenosis.method == Method::Ecst { &[][..] } else { &stenosis.references };
     let away = known.iter().map(|[place, _]| (place - at).abs()).reduce(f64::max);
     let usual = away.unwrap_or(REACH * stenosis.reference);
-    let beside = |is_side: &dyn Fn(f64) -> bool| {
-        known.iter().map(|[place, _]| *place).find(|place| is_side(*place))
-    };
+    let beside =
+        |is_side: &dyn Fn(f64) -> bool| known.iter().map(|[place, _]| *place).find(|place| is_side(*place));
     let from = beside(&|place| place < at).unwrap_or(at - usual);
     let to = beside(&|place| place > at).unwrap_or(at + usual);
     from..=to

@@ -69,7 +69,8 @@ impl Sheet {
         for row in rows {
             for column in columns.clone() {
                 let q = DVec2::new(column as f64, row as f64);
-                let t = ((q - start).dot(edge) / edge.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+                let t =
+                    ((q - start).dot(edge) / edge.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
                 let at = from + t * (to - from);
                 let cover = (line.half(at) - (start + edge * t).distance(q) + 0.5).clamp(0.0, 1.0);
                 let alpha = (cover * 255.0).round() as u8;

@@ -41,12 +41,8 @@ pub enum Colours {
 }
 
 impl Named for Colours {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("viridis", Self::Viridis),
-        ("grey", Self::Grey),
-        ("sea", Self::Sea),
-        ("blue-red", Self::BlueRed),
-    ];
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("viridis", Self::Viridis), ("grey", Self::Grey), ("sea", Self::Sea), ("blue-red", Self::BlueRed)];
 }
 
 impl Colours {

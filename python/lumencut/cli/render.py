@@ -21,7 +21,6 @@ from lumencut.cli.like import (
     warn_of_vessels,
 )
 from lumencut.cli.outputs import name_of, pictures
-from lumencut.cli.rim import rim_option
 from lumencut.cli.report import bar, busy, detail, say, timings, verbose_option
 from lumencut.cli.rim import rim_option
 from lumencut.cli.scene import (

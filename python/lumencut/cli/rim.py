@@ -23,8 +23,9 @@ _USUAL = {
 rim_option = click.option(
     "--measured",
     is_flag=True,
-    help="Measure the vessels to show diameters, instead of showing the radii of CENTERLINES. All other values are "
-    "always measured; narrowing and deviation need a session file as CENTERLINES with a marked stenosis.",
+    help="Measure the vessels to show diameters, instead of showing the radii of CENTERLINES. All other "
+    "values are always measured; narrowing and deviation need a session file as CENTERLINES with a marked "
+    "stenosis.",
 )
 
 

@@ -1,5 +1,6 @@
 """Labels on a picture: the sides of the patient, the view, the window, a scale bar,
-the colours of a rim, and the vessels' names."""
+the colours of a rim, and the vessels' names.
+"""
 
 from __future__ import annotations
 

@@ -13,7 +13,6 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut.base.checks import choice
 from lumencut.errors import SettingsError, VesselTreeError
-from lumencut.pictures.along_vessels import AlongVessels
 from lumencut.pictures.reformation_recipe import ReformationRecipe
 from lumencut.pictures.renderer import Renderer
 from lumencut.pictures.value_colours import Legend, write_legend

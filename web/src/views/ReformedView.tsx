@@ -11,8 +11,8 @@ import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
 import { placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
-import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
 import { profiles } from '../state/profiles';
+import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { NamedScale } from './NamedScale';
@@ -81,7 +81,11 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
               </b>
             ))}
           {text && size && shown && (
-            <NamedScale size={size} spacing={shown.pixel_spacing} isNamed={kind !== 'untangled' && kind !== 'network'} />
+            <NamedScale
+              size={size}
+              spacing={shown.pixel_spacing}
+              isNamed={kind !== 'untangled' && kind !== 'network'}
+            />
           )}
           {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
         </FlatPicture>
@@ -91,7 +95,9 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
         {shown && (
           <button
             type="button"
-            onClick={() => attempt(() => savePane('straightened', kind === 'network' ? kind : `${kind}-cpr`, shown.words))}
+            onClick={() =>
+              attempt(() => savePane('straightened', kind === 'network' ? kind : `${kind}-cpr`, shown.words))
+            }
           >
             Save picture
           </button>

@@ -41,8 +41,13 @@ impl Settings {
         }
         if self.rim.is_some() && !self.preserve_lumen {
             let found = "a rim without preserve_lumen";
-            return Err(Error::new(ErrorKind::Settings, "rim", found, "radii that count, at which the rim lies")
-                .mend("set preserve_lumen, or leave the rim out"));
+            return Err(Error::new(
+                ErrorKind::Settings,
+                "rim",
+                found,
+                "radii that count, at which the rim lies",
+            )
+            .mend("set preserve_lumen, or leave the rim out"));
         }
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());

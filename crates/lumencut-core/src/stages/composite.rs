@@ -63,7 +63,8 @@ pub fn composite(
         let strength = part(layers.strength, &absent, row * chunk, value.len());
         let focus = part(layers.focus, &whole, row * chunk, value.len());
         let context = part(layers.context, &empty, row * chunk, value.len());
-        let (paint, rim) = (*parameters, layers.rim.map_or(&[][..], |rim| &rim[row * chunk..][..value.len()]));
+        let (paint, rim) =
+            (*parameters, layers.rim.map_or(&[][..], |rim| &rim[row * chunk..][..value.len()]));
         dispatch(work.isa, PaintRows { paint, value, strength, focus, rim, context, image });
         Ok(())
     })
@@ -106,13 +107,7 @@ impl CompositeParameters {
 
     /// As [`Self::pixel`], with the rim on the grey surface, below the silhouettes.
     #[inline(always)]
-    fn rimmed(
-        &self,
-        value: f32,
-        rim: [u8; 4],
-        line: (f32, Shares),
-        context: [f32; 4],
-    ) -> [f32; 4] {
+    fn rimmed(&self, value: f32, rim: [u8; 4], line: (f32, Shares), context: [f32; 4]) -> [f32; 4] {
         let grey = self.grey.at(shown(value));
         let [dark, bright] = RIM_FADES;
         let x = smaller(larger((grey - dark) / (bright - dark), 0.0), 1.0);

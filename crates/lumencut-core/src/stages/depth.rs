@@ -190,12 +190,14 @@ pub(crate) fn depth_by<S: Search>(
     let chunk = work.tile_row();
     let row_count = depth.len().div_ceil(chunk);
     let [sheets, blends, feet] = [sheet, blend, foot].map(|image| rows_of(image, chunk, row_count));
-    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets).zip(blends).zip(feet);
+    let rows =
+        depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets).zip(blends).zip(feet);
     rows.enumerate().try_for_each(|(row, ((((depth, vessel), sheet), blend), foot))| {
         work.begin(depth.len())?;
         let from = (row * chunk).min(distance.len());
         let distance = &distance[from..(from + depth.len()).min(distance.len())];
-        let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet, blend, foot }, search());
+        let (row, search) =
+            (DepthRow { surface, row, distance, depth, vessel, sheet, blend, foot }, search());
         if surface.lumen_first {
             dispatch(work.isa, DepthKernel::<S, true> { row, search });
         } else {

@@ -9,8 +9,8 @@ use lumencut_core::math::leaps::LEAPS;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{Scene, SharedVolume, VolumeKey};
 use lumencut_core::settings::{
-    Context, ContextFrom, DistanceRule, Focus, LevelChoice, Opacity, RimValue, Settings, SilhouetteRule, Slab,
-    SlabMode,
+    Context, ContextFrom, DistanceRule, Focus, LevelChoice, Opacity, RimValue, Settings, SilhouetteRule,
+    Slab, SlabMode,
 };
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, crossing, trefoil, y_junction};
@@ -74,10 +74,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("focus amid whole rays", with(|s| focus_amid(s, ContextFrom::Whole))),
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
         ("a rim", with(|s| s.rim = Some(RimValue::Diameter))),
-        (
-            "a rim of the paper's levels",
-            Settings { rim: Some(RimValue::Diameter), ..Settings::paper() },
-        ),
+        ("a rim of the paper's levels", Settings { rim: Some(RimValue::Diameter), ..Settings::paper() }),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
     ]

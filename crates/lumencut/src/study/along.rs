@@ -34,7 +34,8 @@ impl Study {
     pub(crate) fn along(&self, kind: RimValue, marked: &[VesselMessage]) -> Result<ValuesAlong> {
         let none = || Failure::of_message("vessels", &"none", "one or more");
         let named = self.content.named.as_ref().ok_or_else(none)?;
-        let graded = named.lines.iter().map(|line| self.graded_on(*line, marked)).collect::<Result<Vec<_>>>()?;
+        let graded =
+            named.lines.iter().map(|line| self.graded_on(*line, marked)).collect::<Result<Vec<_>>>()?;
         let vessels = named.leveled.tree().vessels().iter().zip(&named.lines).zip(&graded);
         let along = vessels.map(|((vessel, line), stenoses)| Along {
             vessel,

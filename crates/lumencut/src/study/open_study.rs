@@ -71,7 +71,10 @@ impl Study {
         if self.content.tree().is_none() {
             view.settings.focus = None;
         }
-        let along = view.settings.rim.map(|kind| self.along(kind, &message.vessels).and_then(|along| Ok(along.rim()?)));
+        let along = view
+            .settings
+            .rim
+            .map(|kind| self.along(kind, &message.vessels).and_then(|along| Ok(along.rim()?)));
         view.rim = along.and_then(Result::ok);
         view.settings.rim = view.settings.rim.filter(|_| view.rim.is_some());
         Ok(view)

@@ -26,7 +26,8 @@ fn map(vessel: &Vessel) -> (Untangled, ValuesAlong, Vec<[u8; 4]>) {
 #[test]
 fn a_line_is_as_long_and_as_wide_as_its_vessel_and_coloured_by_its_diameter() {
     // The vessel runs along the view for a part, which the map shows in true length.
-    let points = (0..=60).map(|n| if n <= 40 { DVec3::Z * f64::from(n) } else { DVec3::new(0.0, f64::from(n - 40), 40.0) });
+    let points = (0..=60)
+        .map(|n| if n <= 40 { DVec3::Z * f64::from(n) } else { DVec3::new(0.0, f64::from(n - 40), 40.0) });
     let radius = (0..=60).map(|n| 2.0 + f64::from(n) / 20.0).collect();
     let vessel = Vessel::new(points.collect(), Some(radius)).unwrap();
     let (laid, along, pixels) = map(&vessel);
