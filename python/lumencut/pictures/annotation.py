@@ -1,6 +1,4 @@
-"""Labels on a picture: the sides of the patient, the view, the window, a scale bar,
-the colours of a rim, and the vessels' names.
-"""
+"""Labels on a picture: sides of the patient, view, window, scale bar, colours of a rim, vessels' names."""
 
 from __future__ import annotations
 

@@ -39,13 +39,14 @@ _MARGINS = 3.0
 class NetworkMap(UntangledTree):
     """A vessel tree as coloured lines in an image (H, W), made by :func:`lumencut.network`.
 
-    Its places are those of :class:`UntangledTree`. The lines are as wide as the vessels. Vessels are grey where
-    they have no value.
+    Its places are those of :class:`UntangledTree`. The lines are as wide as the vessels, and grey where a
+    vessel has no value.
 
     Attributes
     ----------
     legend : Legend
-        What the colours mean: ``words``, ``unit``, and the values ``low`` and ``high`` of the first and last colour.
+        What the colours mean: ``words``, ``unit``, and the values ``low`` and ``high`` of the first and the
+        last colour.
     """
 
     def __init__(self, along: _lumencut.ValuesAlong, asked: dict[str, Any], *of_tree: Any) -> None:
@@ -112,8 +113,8 @@ def network(
     profiles : iterable of Profile, or of (Profile, iterable of Stenosis), default ()
         Profiles of vessels of the tree, with their graded stenoses.
     value : {"diameter", "narrowing", "deviation", "uncertainty"}, default "diameter"
-        The value, as for the setting ``rim``: diameters come from profiles, otherwise from radii; all else needs
-        profiles.
+        The value, as for the setting ``rim``: diameters come from profiles, otherwise from radii; all else
+        needs profiles.
     camera : Camera, optional
         From where the tree is seen, as for :func:`untangled`.
     hull_margin : float, default 4
