@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import Camera, MeasuringError, Renderer, Settings, Vessel, VesselTree, Volume
+from lumencut import Camera, MeasuringError, Renderer, Settings, Vessel, VesselTree, Volume, _lumencut
 from lumencut import phantom as phantoms
 from lumencut.cli import main
 from lumencut.pictures.recipe import read_recipe
@@ -138,3 +138,41 @@ def test_the_command_renders_radii_or_measures(stenosis, tmp_path: Path):
         assert result.exit_code != 0
         assert found in result.output
     assert not (tmp_path / "no.png").exists()
+
+
+#: Colours as seen without one kind of cone, in linear RGB (Machado, Oliveira and Fernandes 2009).
+_EYES = {
+    "all cones": np.eye(3),
+    "no red": ((0.152, 1.053, -0.205), (0.115, 0.786, 0.099), (-0.004, -0.048, 1.052)),
+    "no green": ((0.367, 0.861, -0.228), (0.280, 0.673, 0.047), (-0.012, 0.043, 0.969)),
+    "no blue": ((1.256, -0.077, -0.179), (-0.078, 0.931, 0.148), (0.005, 0.691, 0.304)),
+}
+
+
+def lab(colours: object, eye: str) -> np.ndarray:
+    """Return colours (n, 3) of 8 bits as CIELAB, in which equal distances look about equal."""
+    srgb = np.asarray(colours, float) / 255
+    linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+    seen = np.clip(linear @ np.array(_EYES[eye]).T, 0, 1)
+    to_xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+    x, y, z = np.cbrt(seen @ to_xyz.T / (0.9505, 1, 1.089)).T
+    return np.stack([116 * y - 16, 500 * (x - y), 200 * (y - z)], axis=1)
+
+
+@pytest.mark.parametrize("eye", _EYES)
+def test_colours_can_be_told_apart_by_colour_blind_readers_and_from_lines(eye):
+    steps = np.linspace(0, 1, 6, dtype=np.float32)[:, None]
+    for colours in ("sea", "blue-red"):
+        seen = lab(_lumencut.coloured(steps, (0, 1), colours)[:, 0, :3], eye)
+        apart = np.linalg.norm(seen[:, None] - seen, axis=2)[np.triu_indices(6, 1)]
+        assert apart.min() > 10
+        assert np.linalg.norm(seen - lab([Settings().silhouette_color], eye), axis=1).min() > 20
+    lightness = lab(_lumencut.coloured(steps, (0, 1), "sea")[:, 0, :3], eye)[:, 0]
+    assert np.diff(lightness).min() > 10
+
+
+def test_dicom_states_what_the_colours_mean(stenosis, tmp_path: Path):
+    frame = lumencut.render(stenosis.volume, stenosis.tree, settings=RIM)
+    made = frame._as_object(annotate=True, vessel_names=False)
+    assert "Colours: diameter from " in made.words
+    assert (made.image != frame.image).any()

@@ -38,7 +38,6 @@ def show_network(**given: Any) -> None:
         made = network(voxels, shown, profiles, value, view, chosen["hull_margin"], chosen["pixel_spacing"])
     with busy(f"writing {output.name}"):
         made.save(output, annotate=chosen["annotate"], **object_options(output, chosen))
-    low, high, unit = made.legend.low, made.legend.high, made.legend.unit
-    say(f"{output}: {made.recipe.name}, {made.legend.words} from {low:g} to {high:g} {unit}")
+    say(f"{output}: {made.recipe.name}, {made.legend}")
     detail(made.recipe.axes)
     warn_of_overlaps(made)

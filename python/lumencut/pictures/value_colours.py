@@ -37,6 +37,10 @@ class Legend:
     high: float
     colours: str
 
+    def __str__(self) -> str:
+        """Return the quantity and its range."""
+        return f"{self.words} from {self.low:g} to {self.high:g} {self.unit}"
+
 
 def coloured(
     value: npt.NDArray[np.float32], ends: tuple[float, float], colours: str = "viridis"
