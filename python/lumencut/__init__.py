@@ -50,7 +50,8 @@ if TYPE_CHECKING:
     from lumencut.notebook import show
     from lumencut.pictures.flights import flight
     from lumencut.pictures.frame import Frame
-    from lumencut.pictures.renderer import Renderer, render
+    from lumencut.pictures.one_view import render
+    from lumencut.pictures.renderer import Renderer
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.lumen_mapping import lumen_map
@@ -124,7 +125,8 @@ _HOME = {
     "notebook": ("show",),
     "pictures.flights": ("flight",),
     "pictures.frame": ("Frame",),
-    "pictures.renderer": ("Renderer", "render"),
+    "pictures.one_view": ("render",),
+    "pictures.renderer": ("Renderer",),
     "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
     "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
     "reformations.lumen_mapping": ("lumen_map",),

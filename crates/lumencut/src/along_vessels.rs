@@ -8,7 +8,7 @@ use lumencut_core::vessel_tree::Vessel;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::Stenosis;
 
-use crate::narrowing::{deviations, narrowings};
+use crate::narrowing::{deviations, measured, narrowings};
 use crate::value_colours::{Colours, coloured, scale_end};
 
 /// Largest distance between values along a vessel (mm), and their largest number.
@@ -172,15 +172,6 @@ fn index(at: f64, length: f64, count: usize) -> Option<usize> {
 fn places(length: f64) -> Vec<f64> {
     let steps = ((length / STEP).ceil().max(1.0) as usize).min(MOST - 1);
     (0..=steps).map(|n| length * n as f64 / steps as f64).collect()
-}
-
-/// Diameter and its standard deviation (mm); NaN if the nearest section does not count.
-pub(crate) fn measured(profile: &Profile, at: f64) -> [f64; 2] {
-    let at = at.clamp(profile.arc_length[0], profile.arc_length[profile.len() - 1]);
-    let LinePlace { segment, share } = LinePlace::at(&profile.arc_length, at);
-    let nearest = (segment + usize::from(share > 0.5)).min(profile.len() - 1);
-    let known = profile.diameter_at(at).ok().filter(|_| profile.counts(nearest));
-    known.map_or([f64::NAN; 2], <[f64; 2]>::from)
 }
 
 fn without_values(kind: RimValue) -> Error {

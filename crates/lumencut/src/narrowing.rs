@@ -1,11 +1,10 @@
-//! Local narrowing, and deviation from the reference, around graded stenoses.
+//! Measured diameters at places of a vessel; local narrowing, and deviation from the reference, around graded stenoses.
 
 use std::ops::RangeInclusive;
 
+use lumencut_core::math::arc_length::LinePlace;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::{Method, Stenosis};
-
-use crate::along_vessels::measured;
 
 /// A stenosis without a reference place extends over at most this many reference diameters on each side.
 const REACH: f64 = 3.0;
@@ -39,6 +38,15 @@ pub(crate) fn deviations(profile: &Profile, stenoses: &[Stenosis], places: &[f64
         nearest.map_or(f64::NAN, |stenosis| measured(profile, *at)[0] - reference(stenosis, *at))
     };
     places.iter().map(deviation).collect()
+}
+
+/// Diameter and its standard deviation (mm); NaN if the nearest section does not count.
+pub(crate) fn measured(profile: &Profile, at: f64) -> [f64; 2] {
+    let at = at.clamp(profile.arc_length[0], profile.arc_length[profile.len() - 1]);
+    let LinePlace { segment, share } = LinePlace::at(&profile.arc_length, at);
+    let nearest = (segment + usize::from(share > 0.5)).min(profile.len() - 1);
+    let known = profile.diameter_at(at).ok().filter(|_| profile.counts(nearest));
+    known.map_or([f64::NAN; 2], <[f64; 2]>::from)
 }
 
 fn percent(stenosis: &Stenosis, diameter: f64, at: f64) -> f64 {

@@ -17,12 +17,13 @@ from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.parameters import PLACES, WALL, joined_places
 from lumencut.cli.report import bar, say, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from
-from lumencut.cli.vessels import named_vessels, path_option
+from lumencut.cli.vessels import named_vessels, path_option, shown_ids
 from lumencut.errors import MeasuringError
 
 if TYPE_CHECKING:
     from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
     from lumencut.measuring.profile import Profile
+    from lumencut.measuring.stenosis import Stenosis
     from lumencut.scene.vessel import Vessel
     from lumencut.scene.vessel_tree import VesselTree
     from lumencut.scene.volume import Volume
@@ -31,6 +32,12 @@ if TYPE_CHECKING:
 #: `METHODS` of `lumencut.measuring.stenosis` and `GROUPS` of `lumencut.measuring.measured_vessel`; copied so
 #: that `--help` does not import numpy.
 METHODS, GROUPS = ("nascet", "ecst", "area"), ("carotid", "coronary")
+
+#: How ``lumencut measure`` measures without options, except for what a session file gives.
+_USUAL = {
+    **dict.fromkeys(("fwhm", "wall", "at", "reference", "method", "original", "comparison", "group")),
+    "step": 0.5,
+}
 
 _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
 
@@ -251,3 +258,14 @@ def _marked(chosen: dict[str, Any]) -> Marked:
         chosen["comparison"],
         chosen["group"],
     )
+
+
+def rim_profiles(
+    chosen: dict[str, Any], value: str | None, voxels: Volume | None, tree: VesselTree
+) -> list[tuple[Profile, tuple[Stenosis, ...]]]:
+    """Measure the shown vessels if a rim or map of a value needs it; return profiles and graded stenoses."""
+    if value is None or voxels is None or (value == "diameter" and not chosen["measured"]):
+        return []
+    vessels = [(str(number), tree[number]) for number in shown_ids(tree, chosen)]
+    measured = measured_vessels(voxels, tree, vessels, {**_USUAL, "centerlines": chosen["centerlines"]})
+    return [(one.profile, () if one.stenosis is None else (one.stenosis,)) for one in measured]

@@ -13,13 +13,12 @@ from lumencut.cli import reformation_options as shared
 from lumencut.cli.cfa import FEATURES, show_cfa
 from lumencut.cli.cpr import MODES, show_cpr
 from lumencut.cli.dicom import grey_option
-from lumencut.cli.network import show_network
 from lumencut.cli.parameters import SIZE, VECTOR, Parts
 from lumencut.cli.reformation_options import option
 from lumencut.cli.reformations import show_each
-from lumencut.cli.rim import rim_option
+from lumencut.cli.settings import rim_option
 from lumencut.cli.uncurl import show_uncurled
-from lumencut.cli.untangled import show_untangled
+from lumencut.cli.untangled import show_network, show_untangled
 
 #: `MODES` of `lumencut.reformations.unrolled_wall`; copied so that `--help` does not import numpy.
 MAP_MODES = ("wall", "radius", "thickness", "shaded")

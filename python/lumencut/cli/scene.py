@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -71,13 +72,14 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
 
 
 def read_scene(
-    files: SceneFiles, chosen: dict[str, Any], settings: Settings | None = None
+    files: SceneFiles,
+    chosen: dict[str, Any],
+    profiles_of: Callable[[Volume | None, VesselTree], Iterable[Any]] = lambda _, __: (),
 ) -> tuple[Renderer, VesselTree | Volume]:
     """Return a renderer of the files and the vessels that views fit; reject options without effect.
 
-    It has the profiles that the settings need for a rim.
+    `profiles_of` returns the profiles that a rim needs.
     """
-    from lumencut.cli.rim import rim_profiles
     from lumencut.pictures.renderer import Renderer
 
     voxels, tree = read_files(files, chosen)
@@ -86,7 +88,7 @@ def read_scene(
         return renderer, renderer.scene
     shown, fitted = vessels.chosen_of(tree, chosen)
     # The renderer checks whether the tree fits the volume, and warns if the space looks wrong.
-    profiles = rim_profiles((voxels, tree), chosen, None if settings is None else settings.rim)
+    profiles = profiles_of(voxels, tree)
     if shown is tree:
         return Renderer(voxels, tree, files.device, profiles=profiles), fitted
     # The window is always that of the whole tree, so the brightness does not depend on the shown vessels.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.pictures.lettering import Sheet
+from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
 from lumencut.pictures.value_colours import write_legend
 from lumencut.pictures.vessel_labels import write_vessel_names
 from lumencut.scene.orientation import edges, view_name
@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from lumencut.pictures.frame_source import FrameSource
     from lumencut.scene.camera import Camera
     from lumencut.scene.window import Window
-
-#: Pictures whose shorter side is smaller than this (pixels) get no labels.
-SMALLEST_SIDE = 200
 
 
 def annotated(

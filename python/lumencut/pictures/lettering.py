@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 #: The left, top, right and bottom edge of a rectangle (pixels).
 Box: TypeAlias = tuple[float, float, float, float]
 
+#: Pictures whose shorter side is smaller than this (pixels) get no labels.
+SMALLEST_SIDE = 200
+
 _LIGHT, _DARK = (255, 255, 255, 255), (0, 0, 0, 255)
 
 #: Height of letters (pixels): a fortieth of the shorter side of the picture, within these limits.

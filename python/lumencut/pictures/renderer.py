@@ -374,35 +374,6 @@ def check_renderer(renderer: Any) -> None:
         raise SettingsError("renderer", type(renderer).__name__, "a Renderer")
 
 
-def render(
-    volume: Any,
-    tree: VesselTree | None = None,
-    camera: Camera | None = None,
-    settings: Settings | None = None,
-    *,
-    profiles: Iterable[Any] = (),
-    progress: Callable[[int, int], object] | None = None,
-) -> Frame:
-    """Return the picture of one view of an angiography and its centerlines.
-
-    Parameters
-    ----------
-    volume : Volume, an image of SimpleITK, itk, nibabel or vtk, or datasets of pydicom
-        The angiography.
-    tree : VesselTree, optional
-        Its centerlines; the context alone is shown by default.
-    camera : Camera, optional
-        The view; from the front, fitted to the tree or else the volume by default.
-    settings : Settings, optional
-        The settings; by default with windows from the data.
-    profiles : iterable of Profile, or of (Profile, iterable of Stenosis), default ()
-        What the setting ``rim`` shows, as for :class:`Renderer`.
-    progress : callable, optional
-        Called with (done, total) while it renders, as by :meth:`Renderer.render`.
-    """
-    return Renderer(volume, tree, profiles=profiles).render(camera, settings, progress=progress)
-
-
 def _check_kind(tree: Any) -> None:
     if not isinstance(tree, (VesselTree, type(None))):
         expected = "a VesselTree, such as read_centerlines returns, or None"

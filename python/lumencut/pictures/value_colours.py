@@ -68,8 +68,7 @@ def with_scale(
     scale : (float, float, str), optional
         The values at both ends of the colours, and their unit.
     """
-    from lumencut.pictures.annotation import SMALLEST_SIDE
-    from lumencut.pictures.lettering import Sheet
+    from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
 
     if min(image.shape[:2]) < SMALLEST_SIDE:
         return image.copy()

@@ -77,8 +77,7 @@ class NetworkMap(UntangledTree):
 
         The labels are those of :class:`UntangledTree`, and the legend of the colours, on black.
         """
-        from lumencut.pictures.annotation import SMALLEST_SIDE
-        from lumencut.pictures.lettering import Sheet
+        from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
 
         image = super().annotated(vessel_names=vessel_names)
         # Labels are white, so lines lie on black.
