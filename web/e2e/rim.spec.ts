@@ -9,13 +9,12 @@ test('a rim appears with its legend, and a value without measurements states wha
   const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu');
   await viewer.rest();
   const before = await viewer.pixels('turning');
-  const rim = viewer.page.getByLabel('rim', { exact: true });
-  await viewer.page.getByText('Research', { exact: true }).click();
-  await rim.selectOption('diameter');
+  const choose = (value: string) => viewer.research(() => viewer.field('rim').selectOption(value));
+  await choose('diameter');
   await expect(viewer.page.getByTestId('rim-legend')).toContainText(/diameter.*mm.*mm/);
   await expect.poll(async () => difference(await viewer.pixels('turning'), before, SAME_CODE)).not.toBeNull();
   await viewer.screenshot('rim-diameter');
-  await rim.selectOption('narrowing');
+  await choose('narrowing');
   await expect(viewer.page.locator('p.rim-legend')).toContainText('no graded stenosis');
   await expect.poll(async () => difference(await viewer.pixels('turning'), before, SAME_CODE)).toBeNull();
   viewer.expectNoFault();
