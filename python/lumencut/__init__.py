@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from lumencut.reformations.unrolled_wall import LumenMap, Ostium
     from lumencut.reformations.untangled_tree import UntangledTree
     from lumencut.reformations.untangling import untangled
+    from lumencut.reports.vessel_sheet import sheet
     from lumencut.scene.camera import VIEWS, Camera
     from lumencut.scene.device import Device, devices
     from lumencut.scene.focus import Focus
@@ -152,6 +153,7 @@ _HOME = {
     "scene.vessel": ("Vessel",),
     "scene.vessel_gap": ("Gap",),
     "scene.vessel_tree": ("VesselTree",),
+    "reports.vessel_sheet": ("sheet",),
     "scene.volume": ("Volume",),
     "scene.volume_pyramid": ("VolumePyramid",),
     "scene.window": ("Opacity", "Window"),
@@ -249,6 +251,7 @@ __all__ = [
     "render",
     "save_animation",
     "set_threads",
+    "sheet",
     "show",
     "spiral",
     "straightened_volume",

@@ -28,6 +28,7 @@ from lumencut.cli.reformation_table import COMMANDS
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
 from lumencut.cli.settings import settings
+from lumencut.cli.sheet import sheet
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
@@ -76,6 +77,7 @@ ALL_COMMANDS = (
     turntable,
     compare_methods,
     *COMMANDS,
+    sheet,
     evaluate,
     figures,
     reading_study,
