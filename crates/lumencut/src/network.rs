@@ -18,7 +18,11 @@ const THINNEST: f64 = 1.25;
 /// RGBA, transparent beside the lines, row by row; the size is that of the layout.
 pub fn drawn(laid: &Untangled, along: &ValuesAlong, stop: Stop) -> Result<Vec<[u8; 4]>> {
     let [width, height] = laid.size();
-    let mut sheet = Sheet { pixels: vec![[0; 4]; width * height], size: [width, height] };
+    let mut sheet = Sheet {
+        pixels: vec![[0; 4]; width * height],
+        inside: vec![f64::NEG_INFINITY; width * height],
+        size: [width, height],
+    };
     let colours = along.colours();
     for part in laid.laid_out() {
         go_on(stop)?;
@@ -51,11 +55,13 @@ impl Line<'_> {
 
 struct Sheet {
     pixels: Vec<[u8; 4]>,
+    /// How far inside its line each pixel lies (pixels).
+    inside: Vec<f64>,
     size: [usize; 2],
 }
 
 impl Sheet {
-    /// Draws the segment that ends at point `n`; where lines overlap, the one that covers more of a pixel stays.
+    /// Draws the segment that ends at point `n`; where lines overlap, a pixel shows the one in which it lies deepest.
     fn draw(&mut self, line: &Line, n: usize) {
         let [start, end] = [n - 1, n].map(|n| line.part.pixels[n]);
         let [from, to] = [n - 1, n].map(|n| line.part.arc_length[n]);
@@ -72,12 +78,12 @@ impl Sheet {
                 let t =
                     ((q - start).dot(edge) / edge.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
                 let at = from + t * (to - from);
-                let cover = (line.half(at) - (start + edge * t).distance(q) + 0.5).clamp(0.0, 1.0);
-                let alpha = (cover * 255.0).round() as u8;
-                let pixel = &mut self.pixels[row * self.size[0] + column];
-                if alpha > pixel[3] {
-                    let [red, green, blue] = line.colour(at);
-                    *pixel = [red, green, blue, alpha];
+                let inside = line.half(at) - (start + edge * t).distance(q);
+                let place = row * self.size[0] + column;
+                if inside > self.inside[place] {
+                    let ([red, green, blue], cover) = (line.colour(at), (inside + 0.5).clamp(0.0, 1.0));
+                    self.inside[place] = inside;
+                    self.pixels[place] = [red, green, blue, (cover * 255.0).round() as u8];
                 }
             }
         }
