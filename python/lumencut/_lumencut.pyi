@@ -100,6 +100,7 @@ __all__ = [
     "TreeFindings",
     "Uncurl",
     "Untangled",
+    "ValuesAlong",
     "VolumeFill",
     "VolumeOpening",
     "VolumePlan",
@@ -466,6 +467,7 @@ class Untangled(Layout):
     def overlaps(self) -> list[int]: ...
     @property
     def closures(self) -> list[tuple[tuple[float, float], tuple[float, float]]]: ...
+    def network(self, along: ValuesAlong) -> npt.NDArray[np.uint8]: ...
     def vessel(self) -> npt.NDArray[np.int32]: ...
     def laid_out(
         self,
