@@ -11,7 +11,7 @@ from collections import defaultdict
 
 from lumencut import Camera, Renderer, Settings, demo, set_threads
 
-STAGES = ("depth", "leap", "depth_filter", "focus", "surface", "silhouette", "context", "composite")
+STAGES = ("depth", "leap", "depth_filter", "focus", "surface", "silhouette", "context", "body", "composite")
 LOOKS = {
     "default": Settings(),
     "without context": Settings(context=None),

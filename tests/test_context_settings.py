@@ -29,13 +29,13 @@ NUMBERS = [None, "1", [1], 1j, np.nan, np.inf, -np.inf]
 
 def test_the_defaults():
     names = [field.name for field in fields(Settings)]
-    assert names[-13:] == [
+    assert names[-15:] == [
         "slab", "focus", "focus_vessels", "others_strength", "context", "context_gamma",
         "context_window", "context_transfer", "context_step", "context_shading",
-        "context_from", "context_strength", "context_preview",
+        "context_from", "context_strength", "context_halo", "context_body", "context_preview",
     ]  # fmt: skip
-    values = [getattr(Settings(), name) for name in names[-13:]]
-    assert values == [None, None, (), 0.5, "mida", 0.0, None, None, None, False, None, 1.0, False]
+    values = [getattr(Settings(), name) for name in names[-15:]]
+    assert values == [None, None, (), 0.5, "mida", 0.0, None, None, None, False, None, 1.0, 0.0, False, False]
     assert Slab(2).mode == "max"
 
 

@@ -1,5 +1,6 @@
 """Each measure gives no error for correct frames, and the known error for made-up wrong frames."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from evaluation_scenes import crossing_tubes, front, perfect, truth_in, tube, wi
 from lumencut import Vessel, VesselTree
 from lumencut.evaluation.amounts import percent, pooled
 from lumencut.evaluation.measures import MEASURES, columns_of
+from lumencut.evaluation.shown import slid
 from lumencut.evaluation.silhouettes import leaps
 
 
@@ -203,6 +205,42 @@ def test_what_shows_nothing_is_neither_near_nor_in_order(tubes, camera):
     assert found["unbroken_surroundings_percent"] == 0
     assert found["depth_change_per_degree_mm"] is found["jumps_per_degree_percent"] is None
     assert found["leaps"] == 0
+
+
+def test_a_surface_that_only_turns_slides_nowhere():
+    camera = front((121, 101), 1.0)
+    turned = camera.rotated(math.radians(1.0), "up")
+
+    def plane(seen, shift):
+        # The plane z = 10 + 0.8 x, moved away by the shift, as seen by a camera.
+        x = (np.arange(121) - 60.0)[None, :] + np.zeros((101, 1))
+        towards, up = np.array(seen.direction), np.array(seen.up)
+        down = (np.arange(101) - 50.0)[:, None, None] * -up
+        foot = seen.center + x[..., None] * np.cross(towards, up) + down
+        normal = np.array(camera.direction) - 0.8 * np.cross(camera.direction, camera.up)
+        depth = (10.0 + shift - (foot - camera.center) @ normal) / (towards @ normal)
+        return depth, foot + depth[..., None] * towards
+
+    depth, _ = plane(camera, 0.0)
+    for shift, share in ((0.0, 0.0), (4.0, 0.0), (9.0, 1.0), (-9.0, 1.0)):
+        slides = slid(camera, depth, *plane(turned, shift))
+        assert slides[:, 8:-8].mean() == share
+    hole = np.where(np.arange(121) < 40, np.nan, depth)
+    assert not slid(camera, hole, *plane(turned, 9.0))[:, 8:38].any()
+    # A plane that faces the viewer in both views moves at its border but does not slide.
+    flat = np.zeros((101, 121))
+    facing = turned.center + (np.arange(121) - 60.0)[:, None] * np.cross(turned.direction, turned.up)
+    position = np.broadcast_to(facing, (101, 121, 3))
+    assert not slid(front((121, 101), 9.0), flat, flat, position).any()
+
+
+def test_the_worst_view_counts_alone(lone, camera):
+    still, half = perfect(lone, camera), np.zeros((161, 161), bool)
+    half[:, :40] = True
+    amounts = [MEASURES["steadiness"].amounts(lone, one) for one in (still, replace(still, slides=half))]
+    found = MEASURES["steadiness"].columns(pooled(amounts))
+    assert found["slides_per_degree_max_percent"] == pytest.approx(100 * 40 / 161)
+    assert found["slides_per_degree_percent"] == pytest.approx(50 * 40 / 161)
 
 
 def test_depths_are_compared_where_there_are_two(tubes, camera):

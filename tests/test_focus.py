@@ -59,7 +59,8 @@ def test_between_two_tubes_the_share_is_that_of_the_nearer_wall() -> None:
 
 def test_the_look_is_a_focus_in_a_shaded_body() -> None:
     look = Settings.focused(samples=2)
-    assert look == Settings(focus=Focus(2, 6), context="mida", context_shading=True, samples=2)
+    around = {"context_shading": True, "context_halo": 0.6, "context_body": True}
+    assert look == Settings(focus=Focus(2, 6), context="mida", samples=2, **around)
     assert Settings().focus is None
     assert Settings.focused(focus=Focus(0, 3)).focus == Focus(0, 3)
 

@@ -37,7 +37,7 @@ CHOSEN = [
     Settings(context="mida", context_transfer=RAMP, context_shading=True, context_gamma=-0.3),
     Settings(context="dvr", context_transfer="bone", context_step=0.7, context_preview=True),
     Settings.focused(
-        focus=Focus(-1.5, 1 / 3), context_from="whole", context_strength=0.65, silhouette_reach=7
+        focus=Focus(-1.5, 1 / 3), context_from="whole", context_strength=0.65, context_halo=0.3, occlusion=0.2
     ),
 ]
 

@@ -88,8 +88,8 @@ def test_files_and_findings_state_both_lumens(profile, tmp_path):
     assert sections["flap"] == profile.flap
     assert sections["area_both_lumens_mm2"][number] == pytest.approx(profile.area_both_lumens[number])
     lines = MeasuredVessel.of("0", Vessel(profile.center), profile, Marked()).lines
-    (said,) = [words for words in lines if words.startswith("Flap from")]
-    assert f"other {profile.area_other_lumen[number]:.0f} ±" in said
+    (said,) = [words for words in lines if words.startswith("Two lumens from")]
+    assert f"other lumen next to it {profile.area_other_lumen[number]:.0f} ±" in said
 
 
 def test_pictures_show_both_lumens(profile):

@@ -132,6 +132,16 @@ def test_nifti_refusals(tmp_path):
         read_volume(tmp_path / "lone.hdr")
 
 
+def test_dark_values_that_were_cut_off_are_noted_with_their_share(tmp_path):
+    tissue = np.random.default_rng(0).normal(20, 40, (20, 20, 20))
+    whole = inspect_volume(save_nifti(tmp_path / "whole.nii", tissue.astype("i2"), oblique()))
+    assert not any("cut off" in note for note in whole.notes)
+    cut = tissue.clip(20).astype("i2")
+    report = inspect_volume(save_nifti(tmp_path / "cut.nii", cut, oblique()))
+    share = f"{100 * (cut == 20).mean():.0f} % of the voxels have the smallest value, 20: darker values were cut off"
+    assert [note for note in report.notes if note.startswith(share)]
+
+
 def test_nan_voxels_are_noted(tmp_path):
     array = coded(dtype="f4")
     array[1, 1, 1] = np.nan

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from lumencut.pictures.renderer import Renderer
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
+    from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
     from lumencut.reformations.network_map import NetworkMap, network
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
@@ -130,6 +131,7 @@ _HOME = {
     "pictures.renderer": ("Renderer",),
     "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
     "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
+    "reformations.flattening": ("FlattenedSurface", "flatten"),
     "reformations.lumen_mapping": ("lumen_map",),
     "reformations.network_map": ("NetworkMap", "network"),
     "reformations.planar_reformation": ("PlanarReformation", "cpr"),
@@ -182,6 +184,7 @@ __all__ = [
     "FeatureAggregation",
     "FileError",
     "Flag",
+    "FlattenedSurface",
     "Focus",
     "FormatError",
     "Frame",
@@ -239,6 +242,7 @@ __all__ = [
     "evaluate",
     "find_vessels",
     "fitted_turn",
+    "flatten",
     "flight",
     "get_threads",
     "list_series",

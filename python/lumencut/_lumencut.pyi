@@ -84,6 +84,7 @@ __all__ = [
     "CenterlineFile",
     "Comparison",
     "Cpr",
+    "Flattened",
     "Grade",
     "GzipPacker",
     "KeptProfiles",
@@ -128,6 +129,7 @@ __all__ = [
     "cross_section",
     "cut",
     "cut_diameter",
+    "cut_off_note",
     "describe_dicom",
     "devices",
     "diameter_chart",
@@ -338,6 +340,9 @@ class Cpr(Layout):
     def straightened_sides(self, step: float, is_stated: bool) -> tuple[list[list[float]], str]: ...
 
 @final
+class Flattened(Layout):
+    def __new__(cls, curves: list[npt.NDArray[np.float64]], keep: str, pixel_spacing: float) -> Flattened: ...
+
 class Spiral(Layout):
     def __new__(
         cls,
@@ -725,6 +730,7 @@ def judge_dicom(headers: bytes, wanted: bytes, /) -> str: ...
 def describe_dicom(headers: bytes, /) -> str: ...
 def dicom_directions(cosines: tuple[float, ...], line: tuple[float, ...], /) -> tuple[float, ...] | None: ...
 def devices() -> list[dict[str, Any]]: ...
+def cut_off_note(volume: Any) -> str | None: ...
 def doubted_grid(size: tuple[int, int, int], affine_rows: list[list[float]]) -> str | None: ...
 def edge_letters(
     right: Sequence[float] | npt.NDArray[np.float64], down: Sequence[float] | npt.NDArray[np.float64]

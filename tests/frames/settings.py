@@ -103,6 +103,7 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     yield from each("silhouette_slope", (0.001, 1, 8, 100, 1e6), silhouette_rule="gradient")
     yield from each("silhouette_reach", (None, 0, 1, 5, 40))
     yield from each("silhouette_reach", (8,), silhouette_rule="gradient")
+    yield from each("occlusion", (0.6, 1))
     yield from each("silhouette_color", ((255, 0, 128), (0, 0, 0)))
     slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
     yield "silhouettes on a filter-free surface", slope
@@ -149,6 +150,8 @@ def context_settings() -> Iterator[tuple[str, Values]]:
             around: Values = {"focus": Focus(1, 10), "context_from": start}
             yield f"{mode}, context_from {start}", {"context": mode, **around}
     yield from each("context_strength", (0, 0.5, 0.65), focus=Focus(0, 12))
+    yield from each("context_halo", (0.6, 1), focus=Focus(0, 12))
+    yield "context_body", {"context_body": True, "focus": Focus(2, 6)}
     for mode in MODES[:2]:
         for step in (0.7, 2.7, 50):
             yield f"{mode}, context_step {step}", {"context": mode, "context_step": step, **behind}

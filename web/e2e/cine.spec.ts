@@ -56,6 +56,10 @@ test('a window is kept under a name, chosen again after a reload, undone and del
   await page.getByRole('slider', { name: 'Level of the window' }).focus();
   await viewer.press('Shift+ArrowRight');
   const own = (await viewer.state()).window;
+  await viewer.press('9');
+  await expect(presets().locator('option:checked')).toHaveText('Aneurysm sac (9)');
+  expect((await viewer.state()).window).toEqual([150, 600]);
+  await viewer.press('Control+z');
   await presets().selectOption('Keep this window …');
   await viewer.press('Escape');
   await presets().selectOption('Keep this window …');

@@ -2,7 +2,7 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { expect, type Page, test } from '@playwright/test';
+import { type Browser, expect, type Page, test } from '@playwright/test';
 import { difference, isEmpty, type Pixels, SAME_CODE } from './compare';
 import { Viewer } from './page';
 import { CENTERLINE, header, VOLUME, voxels, WHOLE } from './streams';
@@ -261,7 +261,7 @@ test('opening a phantom 50 times does not increase the memory', { tag: '@long' }
   await viewer.close();
 });
 
-test('without cross-origin isolation one thread computes, and the page says so', async ({ browser }) => {
+async function openedAlone(browser: Browser, phantom: string): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?device=cpu');
   await viewer.page.route(
     ({ pathname }) => pathname === '/',
@@ -274,15 +274,41 @@ test('without cross-origin isolation one thread computes, and the page says so',
       await route.fulfill({ response: await route.fetch(), headers });
     },
   );
-  await viewer.page.goto('./?phantom=stenosis&device=cpu');
-  await expect(viewer.device).toHaveText('CPU: 1 thread, because the page is not cross-origin isolated');
+  await viewer.page.goto(`./?phantom=${phantom}&device=cpu`);
   await viewer.rest();
+  return viewer;
+}
+
+test('without cross-origin isolation one thread computes, and the page says so', async ({ browser }) => {
+  const viewer = await openedAlone(browser, 'stenosis');
+  await expect(viewer.device).toHaveText('CPU: 1 thread, because the page is not cross-origin isolated');
   expect(isEmpty(await viewer.pixels())).toBe(false);
   const before = await viewer.camera();
   await viewer.drag([0.5, 0.5], [30, 10]);
   await viewer.rest();
   expect(await viewer.camera()).not.toEqual(before);
   viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('without shared memory, the page says that work runs to its end @long', async ({ browser }) => {
+  const viewer = await openedAlone(browser, 'aorta');
+  await viewer.press('v');
+  await viewer.page.getByRole('button', { name: 'Find all vessels' }).click();
+  await viewer.page.getByRole('button', { name: 'Cancel' }).click();
+  const running = viewer.page.getByText('without shared memory it cannot be stopped');
+  await expect(running).toBeVisible();
+  await expect(running).toHaveCount(0);
+  await expect(viewer.page.getByRole('button', { name: 'Undo' })).toBeDisabled();
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('an engine that does not load is reported', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?device=cpu');
+  await viewer.page.route('**/assets/engine.worker-*.js', (route) => route.abort());
+  await viewer.page.goto('./?device=cpu');
+  await expect(viewer.problem).toContainText('Found a worker that did not load');
   await viewer.close();
 });
 

@@ -177,11 +177,14 @@ test('a slab shows its largest, mean or smallest values, and a session keeps pla
   const viewer = await opened(browser);
   await toggle(viewer).click();
   await viewer.pane('axial').focus();
-  await viewer.press('ArrowRight');
   const brightness = async () => {
     const { bytes } = await viewer.pixels('coronal');
     return bytes.reduce((sum, value, n) => sum + (n % 4 === 0 ? value : 0), 0) / (bytes.length / 4);
   };
+  const standard = await brightness();
+  await viewer.press('ArrowRight');
+  // The standard plane is as bright as the slab, so the turned one must be there.
+  await expect.poll(brightness).toBeLessThan(standard);
   const thin = await brightness();
   const slab = viewer.pane('coronal').getByLabel('Slab');
   await slab.fill('20');
@@ -206,6 +209,7 @@ test('a slab shows its largest, mean or smallest values, and a session keeps pla
   await expect(title(viewer, 'coronal')).toHaveText('Coronal');
   await choose(viewer, fileOf('saved.mrk.json', session));
   await expect(title(viewer, 'coronal')).toHaveText('Coronal, oblique, mean 20 mm');
+  await expect(title(viewer, 'axial')).toHaveText('Axial, mean 20 mm');
   const damaged = session.toString('utf-8').replace('"slab":[20', '"slab":[-20');
   await choose(viewer, fileOf('damaged.mrk.json', Buffer.from(damaged)));
   await expect(viewer.problem).toContainText('slab');

@@ -10,7 +10,7 @@ import {
 } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
 import { serious } from './accessibility';
-import { button, choose, type MadeFile } from './controls';
+import { button, choose, fileOf, type MadeFile, SESSION, saved } from './controls';
 import { series } from './dicom';
 import { Viewer } from './page';
 import { EARLIER, LATER, lineAt, markups, scanAt, type Time } from './two-times';
@@ -106,9 +106,9 @@ test('unlinked parts are free, and follow again when they are linked', async ({ 
   const windowThere = other(viewer).getByTestId('window');
   await viewer.press('3');
   await expect(windowThere).toHaveText((await viewer.window.textContent()) ?? '');
-  for (const isLinked of ['false', 'true']) {
+  for (const isLinked of ['true', 'false', 'true']) {
     await button(viewer, 'Link all').click();
-    for (const name of ['Cameras', 'Cross-hairs', 'Windows', 'Looks']) {
+    for (const name of ['Cameras', 'Cross-hairs', 'Slices', 'Windows', 'Looks', 'Layouts']) {
       await expect(button(viewer, name)).toHaveAttribute('aria-pressed', isLinked);
     }
   }
@@ -117,6 +117,52 @@ test('unlinked parts are free, and follow again when they are linked', async ({ 
     'aria-pressed',
     'true',
   );
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('slices and layouts are the same in both scans while they are linked', async ({ browser }) => {
+  const viewer = await both(browser);
+  const layoutThere = other(viewer).locator('main.layout');
+  const titleThere = other(viewer).locator('.pane.coronal .pane-title');
+  await viewer.field('Layout').selectOption('four');
+  await expect(layoutThere).not.toHaveAttribute('data-layout', 'four');
+  await button(viewer, 'Layouts').click();
+  await expect(layoutThere).toHaveAttribute('data-layout', 'four');
+  await expect(titleThere).toHaveText('Coronal');
+  await viewer.press('x');
+  await viewer.pane('axial').press('ArrowRight');
+  await expect(titleThere).toHaveText('Coronal, oblique');
+  await button(viewer, 'Slices').click();
+  await viewer.press('Control+z');
+  await expect(viewer.page.locator('.pane.coronal .pane-title')).toHaveText('Coronal');
+  await expect(titleThere).toHaveText('Coronal, oblique');
+  await button(viewer, 'Slices').click();
+  await expect(titleThere).toHaveText('Coronal');
+  await viewer.screenshot('two-scans-slices');
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
+test('a session keeps pairs and the order of the scans', async ({ browser }) => {
+  const viewer = await both(browser);
+  await button(viewer, 'Pair these places').click();
+  await viewer.page.getByLabel('Order of the scans').selectOption('later');
+  const session = fileOf('kept.mrk.json', await saved(viewer, SESSION));
+  await button(viewer, 'Remove 1 pair').click();
+  await viewer.page.getByLabel('Order of the scans').selectOption('earlier');
+  await choose(viewer, session);
+  await expect(button(viewer, 'Remove 1 pair')).toBeVisible();
+  await expect(viewer.page.getByLabel('Order of the scans')).toHaveValue('later');
+  await viewer.page.reload();
+  await expect(viewer.page.getByRole('button', { name: 'Choose files' })).toBeEnabled();
+  await choose(viewer, ...filesAt('later', LATER));
+  await viewer.rest();
+  await choose(viewer, session);
+  await expect(viewer.page.getByTestId('told')).toContainText('compares the scan with another one');
+  await openOther(viewer, filesAt('earlier', EARLIER));
+  await expect(button(viewer, 'Remove 1 pair')).toBeVisible();
+  await expect(viewer.page.getByLabel('Order of the scans')).toHaveValue('later');
   viewer.expectNoFault();
   await viewer.close();
 });
@@ -228,6 +274,16 @@ test('two patients are refused with both names, and compared if the reader insis
   await button(viewer, 'Compare them anyway').click();
   await expect(sentences(viewer).first()).toContainText('the scans are of two patients');
   await expect(sentences(viewer).last()).toContainText('matched by given places');
+  const report = async () => {
+    const waiting = viewer.page.waitForEvent('download');
+    await button(viewer, 'Save comparison').click();
+    return readFileSync(await (await waiting).path(), 'utf-8');
+  };
+  const unnamed = await report();
+  expect(unnamed).toContain('the scans are of two patients');
+  expect(unnamed).not.toMatch(/PatientID|later scan: later/);
+  await viewer.page.getByLabel('include the name of the scan').first().check();
+  expect(await report()).toMatch(/two patients: PatientID \S*B2\S* and PatientID \S*A1/);
   viewer.expectNoFault();
   await viewer.close();
 });

@@ -131,9 +131,9 @@ describe('keys', () => {
     }
   });
 
-  test('1 to 8 choose the named windows in their order', () => {
+  test('1 to 9 choose the named windows in their order', () => {
     const keys = BINDINGS.filter((row) => row.action.startsWith('preset '));
-    expect(keys).toHaveLength(8);
+    expect(keys).toHaveLength(9);
     keys.forEach((row, n) => {
       expect(row).toMatchObject({ key: String(n + 1), action: `preset ${n}` });
       expect(actionOfKey(String(n + 1))).toBe(`preset ${n}`);

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { CRASH, Failure } from '../src/core/failure';
+import { CRASH, crashed, Failure } from '../src/core/failure';
 
 const FAILURE = new Failure('format', 'the file', 'no voxels', 'a volume', 'choose another file');
 
@@ -30,6 +30,13 @@ test('a crash of the module is recognised, also after the worker reported it to 
   expect(crash.mending).toContain('save the session');
   expect(Failure.of(new Error(crash.text))).toEqual(crash);
   expect(Failure.of(new RangeError('too long')).kind).toBe('unexpected');
+});
+
+test('a crash without room to grow says that memory is short', () => {
+  const crash = crashed('unreachable', 288 * 2 ** 20);
+  expect(crash.found).toBe('a crash, probably because memory is short: 288 MiB are in use');
+  expect(crash.mending).toContain('close other pages');
+  expect(Failure.of(crash.text)).toEqual(crash);
 });
 
 test('remedies follow the advice, in the words of the page', () => {

@@ -2,6 +2,7 @@
 import { expect, test } from 'vitest';
 import type { Seen } from '../src/core/linked';
 import type { Camera } from '../src/core/messages';
+import { STANDARD } from '../src/core/planes';
 import { followSeen, scanNow, seenNow, setOperated, takeSeen } from '../src/state/linked-view';
 import * as store from '../src/state/store';
 
@@ -35,4 +36,13 @@ test('a taken camera keeps the size of the pane, and the size of a pixel in mm',
   takeSeen({ cameras: { ...CAMERA, size: [500, 700], pixel_spacing: 0.2, center: [7, 7, 7] } });
   expect(store.camera.value).toEqual({ ...CAMERA, pixel_spacing: 0.2, center: [7, 7, 7] });
   expect(scanNow()).toBeNull();
+});
+
+test('planes that another page sends are the standard ones again, and an unknown layout changes nothing', () => {
+  takeSeen({ slices: structuredClone({ ...STANDARD, slab: [20, 'max'] as const }), layouts: 'four' });
+  expect(store.slices.value.axial).toBe(STANDARD.axial);
+  expect(store.slices.value.slab).toEqual([20, 'max']);
+  takeSeen({ slices: structuredClone(STANDARD), layouts: 'nine' });
+  expect(store.slices.value).toBe(STANDARD);
+  expect(store.layout.value).toBe('four');
 });

@@ -2,9 +2,9 @@
 import { expect, test } from 'vitest';
 import { pixelOf } from '../src/core/camera';
 import type { Camera, Motion, Vector } from '../src/core/messages';
-import { cameraBy, inverseOf, movedBy } from '../src/core/motion';
+import { cameraBy, inverseOf, movedBy, slicesBy } from '../src/core/motion';
+import { STANDARD } from '../src/core/planes';
 
-/** A quarter turn about z, then a shift. */
 const MOTION: Motion = {
   rotation: [
     [0, -1, 0],
@@ -29,4 +29,21 @@ test('the moved camera sees a moved point at the same pixel', () => {
     pixel_spacing: 0.5,
   };
   expect(pixelOf(cameraBy(MOTION, camera), movedBy(MOTION, POINT))).toEqual(pixelOf(camera, POINT));
+});
+
+test('moved planes show the same part of the body, and come back as the standard ones', () => {
+  const there = slicesBy(MOTION, { ...STANDARD, slab: [20, 'max'] });
+  expect(there.coronal).toEqual({ right: [0, 1, 0], down: [0, 0, -1] });
+  expect(there.slab).toEqual([20, 'max']);
+  const back = slicesBy(inverseOf(MOTION), { ...there, slab: null });
+  expect(back).toBe(STANDARD);
+  const unmoved: Motion = {
+    ...inverseOf(MOTION),
+    rotation: [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ],
+  };
+  expect(slicesBy(unmoved, structuredClone(STANDARD))).toBe(STANDARD);
 });

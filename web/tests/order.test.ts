@@ -3,7 +3,6 @@ import { describe, expect, test } from 'vitest';
 import { Latest } from '../src/core/latest';
 import { Queue } from '../src/worker/host';
 
-/** A task that ends when the test says so. */
 function held(name: string, log: string[]) {
   let release: () => void = () => undefined;
   const ended = new Promise<void>((resolve) => {

@@ -19,7 +19,7 @@ const REPORT: Report = {
     smallest_side: 0.5,
     pixel_side: 0.25,
     scan: '',
-    doubt: null,
+    notes: [],
   },
   vessels: [],
   windows: null,
@@ -72,6 +72,7 @@ const LOOKED: DisplayState = {
   layout: 'strip',
   crossHair: [1, 2, 3],
   slices: STANDARD,
+  compared: null,
   picked: { id: 1, at: 12.5 },
 };
 

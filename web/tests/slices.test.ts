@@ -99,6 +99,8 @@ test('an address holds planes only if they are perpendicular, and a slab only if
   for (const slab of [[0, 'max'], [-3, 'max'], [1e5, 'max'], [5, 'median'], [5], 'max', 5, undefined]) {
     expect(held({ ...OBLIQUE, slab })).toBeNull();
   }
+  const slab = held({ ...STANDARD, slab: [10, 'mean'] });
+  expect(slab && isTurned(slab)).toBe(false);
   const { axial, coronal } = OBLIQUE;
   const longer = { ...axial, right: scale(axial.right, 1.1) };
   for (const wrong of [null, [], 5, {}, { ...OBLIQUE, axial: coronal }, { ...OBLIQUE, axial: longer }]) {

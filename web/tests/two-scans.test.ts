@@ -2,15 +2,22 @@
 import { beforeEach, expect, test } from 'vitest';
 import { LINKS, type OtherScan, type Seen } from '../src/core/linked';
 import type { Motion, Report, ScansToCompare } from '../src/core/messages';
+import { STANDARD } from '../src/core/planes';
 import * as store from '../src/state/store';
 import {
   across,
+  addPair,
   atAcross,
   beginScans,
   comparison,
   endComparison,
+  isOtherEarlier,
+  keepComparison,
   linkAll,
   links,
+  pairs,
+  savedComparison,
+  setOtherEarlier,
   setPlaced,
   takeOther,
   toggleLink,
@@ -26,6 +33,7 @@ const shifted = (z: number): Motion => ({ rotation: IDENTITY, shift: [0, 0, z] }
 const OTHER: OtherScan = {
   count: 1,
   name: 'earlier',
+  grid: { size: [2, 3, 4], world_from_index: [[1, 0, 0, 0]] },
   corners: [],
   lines: [7],
   isHounsfield: true,
@@ -35,6 +43,8 @@ const OTHER: OtherScan = {
 const SEEN: Seen = {
   windows: [300, 900],
   'cross-hairs': { point: [1, 2, 3], line: 4, at: 10 },
+  slices: STANDARD,
+  layouts: 'four',
 };
 
 /** The other scan is the earlier one; its vessel begins 5 mm later, and ends at 20 mm. */
@@ -61,7 +71,7 @@ beforeEach(() => {
 
 test('a place moves with the scan, and the window is the same', () => {
   expect(across(SEEN, false)).toEqual({
-    windows: [300, 900],
+    ...SEEN,
     'cross-hairs': { point: [1, 2, 53], line: null, at: null },
   });
   expect(across(SEEN, true)['cross-hairs']?.point).toEqual([1, 2, -47]);
@@ -74,9 +84,9 @@ test('nothing is linked before the position of the other scan is known', () => {
 
 test('each part can be unlinked, and all at once', () => {
   toggleLink('windows');
-  expect(Object.keys(across(SEEN, false))).toEqual(['cross-hairs']);
+  expect(across(SEEN, false).windows).toBeUndefined();
   toggleLink('windows');
-  expect(Object.keys(across(SEEN, false)).length).toBe(2);
+  expect(Object.keys(across(SEEN, false)).length).toBe(4);
   linkAll(false);
   expect(across(SEEN, false)).toEqual({});
   linkAll(true);
@@ -111,4 +121,34 @@ test('a comparison ends with one of its vessels, or with one of its scans', () =
   expect(comparison.value).not.toBeNull();
   takeOther({ ...OTHER, count: 2 });
   expect(comparison.value).toBeNull();
+});
+
+test('a session keeps order and pairs until its other scan is open again', () => {
+  setOtherEarlier(false);
+  addPair([1, 2, 3], [4, 5, 6]);
+  const saved = savedComparison() ?? undefined;
+  expect(saved).toEqual({
+    scan: OTHER.grid,
+    is_earlier: false,
+    pairs_mm: [
+      [
+        [1, 2, 3],
+        [4, 5, 6],
+      ],
+    ],
+  });
+  takeOther(null);
+  setOtherEarlier(true);
+  expect(keepComparison(structuredClone(saved))).toBe(false);
+  expect(savedComparison()).toEqual(saved);
+  takeOther({ ...OTHER, count: 2, grid: { ...OTHER.grid, size: [9, 9, 9] } });
+  expect([isOtherEarlier.value, pairs.value]).toEqual([true, []]);
+  takeOther({ ...OTHER, count: 3 });
+  expect([isOtherEarlier.value, pairs.value]).toEqual([false, saved?.pairs_mm]);
+  expect(keepComparison(undefined)).toBe(true);
+  takeOther(null);
+  expect(savedComparison()).toBeNull();
+  keepComparison(saved);
+  store.report.value = { volume: {}, vessels: [], windows: null } as unknown as Report;
+  expect(savedComparison()).toBeNull();
 });

@@ -27,7 +27,7 @@ pub struct Frame {
     pub blend: Vec<Blend>,
     /// Bits that mark depth jumps between neighbouring pixels ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if both are fully shown.
+    /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if all is shown.
     pub focus: Vec<Shares>,
     /// Colour and share of the rim around the vessels ([`crate::stages::rim`]); empty without one.
     pub rim: Vec<[u8; 4]>,

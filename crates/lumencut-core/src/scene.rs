@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::error::Result;
 use crate::math::blocks::Blocks;
+use crate::math::body::Body;
 use crate::math::centerline_smoothing::smooth_centerlines;
 use crate::math::projection::Level;
 use crate::stages::levels::levels;
@@ -52,24 +53,31 @@ impl<'a> Scene<'a> {
 /// Clones share the key.
 #[derive(Clone, Debug, Default)]
 pub struct VolumeKey {
-    blocks: Arc<OnceLock<Blocks>>,
+    found: Arc<Found>,
+}
+
+/// What was computed from the voxels of one volume.
+#[derive(Debug, Default)]
+struct Found {
+    blocks: OnceLock<Blocks>,
+    body: OnceLock<Option<Body>>,
 }
 
 /// A [`VolumeKey`] that keeps no cached data in memory.
 #[derive(Clone, Debug)]
-pub struct WeakVolumeKey(Weak<OnceLock<Blocks>>);
+pub struct WeakVolumeKey(Weak<Found>);
 
 impl VolumeKey {
     /// The same key; it keeps no cached data in memory.
     pub fn downgrade(&self) -> WeakVolumeKey {
-        WeakVolumeKey(Arc::downgrade(&self.blocks))
+        WeakVolumeKey(Arc::downgrade(&self.found))
     }
 }
 
 impl WeakVolumeKey {
     /// Whether this is the same key.
     pub fn is(&self, key: &VolumeKey) -> bool {
-        self.0.ptr_eq(&Arc::downgrade(&key.blocks))
+        self.0.ptr_eq(&Arc::downgrade(&key.found))
     }
 }
 
@@ -90,12 +98,21 @@ impl<'a> SharedVolume<'a> {
 
     /// The smallest and largest values of the volume's blocks, computed at the first call.
     pub fn blocks(&self, stop: Stop) -> Result<&Blocks> {
-        if let Some(blocks) = self.key.blocks.get() {
+        if let Some(blocks) = self.key.found.blocks.get() {
             return Ok(blocks);
         }
         // Computed outside the lock: a waiting pool thread may start another view and then deadlock.
         let blocks = Blocks::new(&self.volume, stop)?;
-        Ok(self.key.blocks.get_or_init(|| blocks))
+        Ok(self.key.found.blocks.get_or_init(|| blocks))
+    }
+
+    /// The body in the volume, found at the first call; `None` without air around it.
+    pub fn body(&self, stop: Stop) -> Result<Option<&Body>> {
+        if let Some(body) = self.key.found.body.get() {
+            return Ok(body.as_ref());
+        }
+        let body = Body::of(&self.volume, stop)?;
+        Ok(self.key.found.body.get_or_init(|| body).as_ref())
     }
 }
 

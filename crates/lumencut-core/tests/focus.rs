@@ -216,6 +216,69 @@ fn between_them_it_is_a_mean_by_the_share() {
     }
 }
 
+/// The factor of a halo that darkens by 60 %, with constants in mm as in the documentation.
+fn halo(beyond: f64, share: f64) -> f64 {
+    1.0 - 0.6 * (1.0 - share) * (-(beyond - 6.0).max(0.0) / 6.0).exp()
+}
+
+fn around_the_cut(strength: f64, from: ContextFrom) -> Settings {
+    let mode = ContextMode::Average;
+    let context = Context { mode, from, halo: strength, ..Context::default() };
+    Settings { context: Some(context), ..with_focus(1.0, 12.0) }
+}
+
+#[test]
+fn beside_one_tube_the_halo_is_the_closed_form() {
+    let tube = tree(vec![vessel(&[[-100.0, 3.0, 0.0], [100.0, -2.0, 0.0]], 4.0)]);
+    let camera = front([9, 200], 0.5);
+    let scene = Scene::default().with_tree(tube);
+    let frame = framed(&scene, &camera, &around_the_cut(0.6, ContextFrom::Cut), Isa::widest());
+    let factors: Vec<f32> = frame.focus.iter().map(|shares| shares[2]).collect();
+    for row in 0..200 {
+        let y = camera.view_y(row);
+        let beyond = (y.abs() - 4.0).max(0.0);
+        let expected = if beyond < 42.0 { halo(beyond, share(beyond, 1.0, 12.0)) } else { 1.0 };
+        assert!((f64::from(at(&frame, &factors, 0.25, y)) - expected).abs() < 1e-5, "at {y} mm");
+    }
+}
+
+#[test]
+fn in_a_preview_the_halo_ends_without_a_step() {
+    let tube = tree(vec![vessel(&[[-100.0, 3.0, 0.0], [100.0, -2.0, 0.0]], 4.0)]);
+    let scene = Scene::default().with_tree(tube);
+    let mut settings = around_the_cut(0.6, ContextFrom::Cut);
+    settings.context.as_mut().unwrap().preview = true;
+    let frame = framed(&scene, &front([3, 200], 0.5), &settings, Isa::widest());
+    let factors: Vec<f32> = frame.focus.chunks(3).map(|row| row[0][2]).collect();
+    assert!(factors.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 0.06));
+    assert!(factors[..48].iter().all(|factor| *factor == 1.0), "20 mm from the wall");
+}
+
+#[test]
+fn a_halo_darkens_the_context_alone() {
+    let phantom = y_junction().unwrap();
+    let camera = view([0.3, 1.0, 0.2], [120, 90], 0.9);
+    let [plain, found] =
+        [0.0, 0.6].map(|halo| shown(&phantom, &camera, &around_the_cut(halo, ContextFrom::Whole)));
+    let mut darkened = 0;
+    for n in 0..plain.image.len() {
+        let [share, _, factor, shade] = found.focus[n];
+        assert_eq!((plain.focus[n], shade), ([share, plain.focus[n][1], 1.0, 0.0], 0.0));
+        if share == 1.0 {
+            assert_eq!(found.image[n], plain.image[n], "lumen and wall at pixel {n}");
+        } else if share == 0.0 {
+            for c in 0..3 {
+                let [before, after] = [&plain, &found].map(|frame| f32::from(frame.image[n][c]));
+                assert!((after - factor * before).abs() <= 1.01, "pixel {n}, channel {c}");
+                darkened += usize::from(after < before);
+            }
+        }
+    }
+    assert!(darkened > 500, "{darkened} darker channels");
+    assert_eq!((plain.depth(), &plain.value.len()), (found.depth(), &found.value.len()));
+    assert_eq!(plain.context, found.context);
+}
+
 #[test]
 fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
     let phantom = crossing().unwrap();
@@ -228,11 +291,11 @@ fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
         let (mut near, mut far) = (0, 0);
         for n in 0..found.image.len() {
             match found.focus[n] {
-                [surface, 1.0] => {
+                [surface, 1.0, ..] => {
                     assert_eq!((surface, found.image[n]), (1.0, all.image[n]));
                     near += usize::from(all.image[n] != without.image[n]);
                 }
-                [_, 0.0] => {
+                [_, 0.0, ..] => {
                     assert_eq!(found.image[n], without.image[n]);
                     far += usize::from(all.image[n] != without.image[n]);
                 }

@@ -2,6 +2,7 @@
 
 mod along_rays;
 mod bad_input;
+mod body;
 mod centerline_smoothing;
 mod chosen;
 mod context;
@@ -17,6 +18,7 @@ mod independence;
 mod leaps;
 mod lines;
 mod mpcpr;
+mod occlusion;
 mod one_decision;
 mod paper;
 mod rim;

@@ -50,7 +50,7 @@ impl Images {
             vessel: number("vessel"),
             sheet: device.image("sheet", pixels, MAX_PIXEL_BYTES),
             leap: number("leap"),
-            focus: device.image("focus", pixels, 8),
+            focus: device.image("focus", pixels, MAX_PIXEL_BYTES),
             rim: number("rim"),
             value: number("value"),
             raised: number("raised slope"),

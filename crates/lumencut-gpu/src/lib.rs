@@ -5,6 +5,7 @@
 
 pub mod adapter;
 mod blocks;
+mod body;
 mod composite;
 mod context;
 mod cut_surface;
@@ -13,6 +14,7 @@ pub mod device;
 mod images;
 mod leap;
 mod levels;
+mod occlusion;
 #[cfg(not(target_arch = "wasm32"))]
 mod on_cpu;
 mod pass;

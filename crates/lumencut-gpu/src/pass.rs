@@ -7,6 +7,7 @@ use lumencut_core::math::blocks::HUGE;
 use lumencut_core::pipeline::Request;
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::SilhouetteRule;
+use lumencut_core::stages::body::Outline;
 use lumencut_core::stages::focus::{FocusParameters, Shares};
 use lumencut_core::stages::rim::RimParameters;
 use lumencut_core::stages::{Image, ImageSet, Stage};
@@ -103,10 +104,12 @@ impl<'a> Pass<'a> {
             Stage::Leap => self.leap(),
             Stage::DepthFilter => self.depth_filter(),
             Stage::Focus => self.focus(),
+            Stage::Occlusion => self.occlusion(),
             Stage::Rim => self.rim(),
             Stage::Surface => return self.surface(),
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
+            Stage::Body => return self.body(),
             Stage::Composite => self.composite(),
             // These stages run on the CPU, before the view, or as part of another stage.
             Stage::Levels | Stage::Projection | Stage::Blocks => {}
@@ -163,6 +166,12 @@ impl<'a> Pass<'a> {
         cut_surface.focus(&mut self.recording, view, levels, parameters, self.images);
     }
 
+    fn occlusion(&mut self) {
+        let Stages { view, occlusion, .. } = &*self.stages;
+        let depth = self.buffer(Image::Depth);
+        occlusion.record(&mut self.recording, view, (self.images, depth), self.request.camera);
+    }
+
     fn rim(&mut self) {
         let (Some(tree), Some(colors)) = (&self.scene.tree, self.request.rim) else { return };
         let Request { settings, camera, .. } = self.request;
@@ -212,6 +221,17 @@ impl<'a> Pass<'a> {
         let Stages { view, grid, context: stage, .. } = &mut *self.stages;
         stage.write(self.device, settings, context, (&shared.volume, self.request.camera), blocks)?;
         stage.record(&mut self.recording, [view, grid], (on_device, blocks), context, images);
+        Ok(())
+    }
+
+    fn body(&mut self) -> Result<()> {
+        let (Some(around), Some(camera)) = (self.scene.shown_around(), self.geometry.camera()) else {
+            return Ok(());
+        };
+        if let Some(body) = around.body(self.request.stop)? {
+            let Stages { view, body: stage, .. } = &*self.stages;
+            stage.record(&mut self.recording, view, self.images, &Outline::new(body, camera));
+        }
         Ok(())
     }
 
@@ -287,8 +307,7 @@ impl<'a> Pass<'a> {
 
 fn bytes_of(image: Image) -> usize {
     match image {
-        Image::Gathered | Image::Sheet | Image::Blend | Image::Foot => 16,
-        Image::Focus => 8,
+        Image::Gathered | Image::Sheet | Image::Blend | Image::Foot | Image::Focus => 16,
         _ => 4,
     }
 }

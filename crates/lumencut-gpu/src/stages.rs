@@ -4,12 +4,14 @@ use lumencut_core::geometry::Geometry;
 use lumencut_core::volume::Volume;
 use wgpu::Buffer;
 
+use crate::body::BodyStage;
 use crate::composite::Composite;
 use crate::context::ContextStage;
 use crate::cut_surface::CutSurfaceStages;
 use crate::depth_filter::DepthFilter;
 use crate::device::Device;
 use crate::leap::Leap;
+use crate::occlusion::Occlusion;
 use crate::rim::Rim;
 use crate::silhouette::Silhouette;
 use crate::surface::Surface;
@@ -24,10 +26,12 @@ pub(crate) struct Stages {
     pub cut_surface: CutSurfaceStages,
     pub leap: Leap,
     pub depth_filter: DepthFilter,
+    pub occlusion: Occlusion,
     pub rim: Rim,
     pub surface: Surface,
     pub silhouette: Silhouette,
     pub context: ContextStage,
+    pub body: BodyStage,
     pub composite: Composite,
 }
 
@@ -39,10 +43,12 @@ impl Stages {
             cut_surface: CutSurfaceStages::new(device),
             leap: Leap::new(device),
             depth_filter: DepthFilter::new(device),
+            occlusion: Occlusion::new(device),
             rim: Rim::new(device),
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),
             context: ContextStage::new(device),
+            body: BodyStage::new(device),
             composite: Composite::new(device),
         }
     }

@@ -13,15 +13,17 @@ use crate::read;
 use crate::write::check_all;
 use crate::write::mrk_json::markups;
 
+mod compared;
 mod view;
 
+pub use compared::ComparedScan;
 pub use view::{Camera, Picked, SliceAxes, Slices, View};
 
 /// Name of the field that is added to the markups file.
 pub const FIELD: &str = "LumencutSession";
 
 /// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, hidden bone, contours and lines by hand,
-/// noted diameters, and planes of slices. Files use
+/// noted diameters, planes of slices, and a compared scan. Files use
 /// the lowest sufficient version, so that older programs reject only files that they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
@@ -76,6 +78,10 @@ pub struct Session {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(feature = "types", ts(as = "Option<bool>", optional))]
     pub bone_hidden: bool,
+    /// The scan that the reader compares with this one; exists since version 2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "types", ts(optional))]
+    pub compared: Option<ComparedScan>,
 }
 
 impl Session {
@@ -85,7 +91,9 @@ impl Session {
         let is_by_hand = |vessel: &VesselState| !vessel.contours_mm.is_empty() || vessel.by_hand.is_some();
         let has_contours = self.vessels.iter().any(is_by_hand);
         let has_slices = self.view.as_ref().is_some_and(|view| view.slices.is_some());
-        let has_more = self.one_millimetre_assumed || self.bone_hidden || has_contours || has_slices;
+        let is_compared = self.compared.is_some();
+        let has_more =
+            self.one_millimetre_assumed || self.bone_hidden || has_contours || has_slices || is_compared;
         FORMATS[usize::from(has_more || marks.into_iter().any(has_diameters))]
     }
 
@@ -282,6 +290,7 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
             Session { vessels, .. } if vessels.iter().any(|vessel| vessel.by_hand.is_some()) => {
                 "a line by hand"
             }
+            Session { compared: Some(_), .. } => "a compared scan",
             Session { view: Some(View { slices: Some(_), .. }), .. } => "planes of slices",
             _ => "noted diameters",
         };

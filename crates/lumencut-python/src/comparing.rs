@@ -122,7 +122,7 @@ pub(crate) fn compare_scans(
     other_patient: bool,
 ) -> PyResult<Comparison> {
     let stated = stated.map(|(patient, issuer, modality)| ScanIdentity { patient, issuer, modality });
-    let doubts = doubts(&stated, other_patient).map_err(to_python)?;
+    let doubts = doubts(&stated, other_patient, true).map_err(to_python)?;
     let [first, second] = profiles.each_ref().map(|profile| &profile.get().0);
     let comparison = py.detach(|| comparison::compare(first, second, &pairs)).map_err(to_python)?;
     Ok(Comparison { comparison, vessel, scans, doubts })

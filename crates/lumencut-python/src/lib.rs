@@ -13,6 +13,7 @@ mod dicom;
 mod drags;
 mod errors;
 mod file_kinds;
+mod flattened;
 mod found_vessels;
 mod kept_profiles;
 mod labels;
@@ -67,6 +68,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<centerlines::CenterlineFile>()?;
     module.add_class::<layout::Layout>()?;
     module.add_class::<cpr::Cpr>()?;
+    module.add_class::<flattened::Flattened>()?;
     module.add_class::<spiral::Spiral>()?;
     module.add_class::<volume_file::VolumeOpening>()?;
     module.add_class::<volume_file::VolumePlan>()?;
@@ -177,6 +179,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("REORDERED", lumencut::reordering::REORDERED)?;
     module.add_function(wrap_pyfunction!(centerlines::line_doubts, module)?)?;
     module.add_function(wrap_pyfunction!(placement::better_place, module)?)?;
+    module.add_function(wrap_pyfunction!(volume::cut_off_note, module)?)?;
     module.add_function(wrap_pyfunction!(volume::doubted_grid, module)?)?;
     module.add_function(wrap_pyfunction!(placement::fits_nowhere, module)?)?;
     module.add_function(wrap_pyfunction!(centerlines::is_session_file, module)?)?;

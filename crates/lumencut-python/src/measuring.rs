@@ -203,7 +203,7 @@ impl Profile {
     }
 
     fn lumens_at(&self, n: usize) -> Option<String> {
-        measure_words::of_lumens_at(&self.0, n)
+        Some(measure_words::of_lumens_at(&self.0, n)?.join(", "))
     }
 
     /// Whether the outside of a thick wall is seen, or why not, in words.

@@ -101,6 +101,15 @@ pub(crate) fn doubted_grid(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Opti
     lumencut::doubted_scan::doubted_grid(size, affine(affine_rows))
 }
 
+/// A note for the user if dark values of the volume were cut off.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(crate) fn cut_off_note(py: Python<'_>, volume: VolumeArgument<'_>) -> PyResult<Option<String>> {
+    let borrowed = volume.borrow()?;
+    let volume = volume.volume(&borrowed)?;
+    Ok(py.detach(|| lumencut::cut_off_values::cut_off_note(&volume)))
+}
+
 /// Number of points that are sampled before the next check whether to stop.
 const PART: usize = 1 << 14;
 

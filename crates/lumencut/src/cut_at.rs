@@ -48,6 +48,6 @@ pub fn cut_at(
     Ok(CutAt {
         point: point + camera.direction() * f64::from(depth),
         vessel: frame.vessel.get(middle).and_then(|vessel| usize::try_from(*vessel).ok()),
-        is_shown: frame.focus.get(middle).is_none_or(|[surface, _]| *surface >= MIN_OPACITY),
+        is_shown: frame.focus.get(middle).is_none_or(|[surface, ..]| *surface >= MIN_OPACITY),
     })
 }

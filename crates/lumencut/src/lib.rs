@@ -11,6 +11,7 @@ pub mod clicked_vessel;
 pub mod comparison;
 pub mod cut_at;
 pub mod cut_diameter;
+pub mod cut_off_values;
 pub mod defaults;
 pub mod devices;
 pub mod doubted_scan;

@@ -153,14 +153,20 @@ pub fn of_flap(flap: Flap) -> &'static str {
 }
 
 /// The areas of both lumens of section `n` if a flap is visible, such as
-/// `line's lumen 120 ± 3 mm², other 300 ± 5 mm², both 420 ± 8 mm²`.
-pub fn of_lumens_at(profile: &Profile, n: usize) -> Option<String> {
+/// `lumen of the line, up to the flap, 120 ± 3 mm²`, `other lumen next to it 300 ± 5 mm²` and `both 420 ± 8 mm²`.
+pub fn of_lumens_at(profile: &Profile, n: usize) -> Option<[String; 3]> {
     let own = profile.area_own_lumen[n];
     let other = profile.area_other_lumen[n];
     let [own, other, both] = [own, other, profile.area_both_lumens()[n]]
         .map(|[area, unsure]| format!("{} ± {} mm²", fixed(area, 0), fixed(unsure, 0)));
     let is_seen = profile.flap[n] == Flap::Seen;
-    is_seen.then(|| format!("line's lumen {own}, other {other}, both {both}"))
+    is_seen.then(|| {
+        [
+            format!("lumen of the line, up to the flap, {own}"),
+            format!("other lumen next to it {other}"),
+            format!("both {both}"),
+        ]
+    })
 }
 
 /// The longest stretch that shows both lumens of a dissected vessel, in one sentence.
@@ -168,8 +174,10 @@ pub fn of_flap_stretch(profile: &Profile) -> Option<String> {
     let stretch = profile.flap_stretch()?;
     let [from, to] = stretch.ends.map(|mm| fixed(mm, 1));
     let widest = fixed(profile.arc_length[stretch.widest], 1);
-    let lumens = of_lumens_at(profile, stretch.widest)?;
-    Some(format!("Flap from {from} to {to} mm; at {widest} mm, where it is widest: {lumens}."))
+    let lumens = of_lumens_at(profile, stretch.widest)?.join(", ");
+    Some(format!(
+        "Two lumens from {from} to {to} mm, parted by a flap or by the walls of two vessels; at {widest} mm, where they are widest: {lumens}."
+    ))
 }
 
 /// The outer wall of the longest stretch that shows it around thrombus or plaque, in one sentence.

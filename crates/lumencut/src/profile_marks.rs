@@ -84,6 +84,16 @@ impl Grade {
         }
     }
 
+    /// Doubts about the measured place and the references of a percentage, one sentence each.
+    pub(crate) fn doubts(&self, profile: &Profile) -> Vec<String> {
+        match self {
+            Self::Graded { stenosis, .. } => of_doubts(&stenosis.doubts),
+            Self::NotGraded { at, .. } => {
+                at.map(|at| of_doubts(&profile.doubts(at, Method::Nascet, &[]))).unwrap_or_default()
+            }
+        }
+    }
+
     /// The first line of the result: the percentage, or the diameter and why there is no percentage.
     pub(crate) fn headline(&self, profile: &Profile) -> String {
         match self {
@@ -102,7 +112,7 @@ impl Grade {
             Self::NotGraded { reason, .. } => vec![format!("no percentage: {reason}")],
             Self::Graded { stenosis, group } => {
                 let group = group.iter().map(|group| format!("severity group: {group}"));
-                let doubts = of_doubts(&stenosis.doubts).into_iter().chain(narrower(profile, self.at()));
+                let doubts = self.doubts(profile).into_iter().chain(narrower(profile, self.at()));
                 [of_stenosis(stenosis)].into_iter().chain(doubts).chain(group).collect()
             }
         }

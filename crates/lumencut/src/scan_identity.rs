@@ -37,9 +37,13 @@ impl ScanIdentity {
     }
 }
 
-/// The doubts about comparing an earlier and a later scan, one sentence each. Fails with [`ErrorKind::Measuring`] for scans of two
-/// patients, unless the caller accepts another patient.
-pub fn doubts([earlier, later]: &[ScanIdentity; 2], is_other_accepted: bool) -> Result<Vec<String>> {
+/// The doubts about comparing an earlier and a later scan, one sentence each, which give the IDs of two patients if `is_named`. Fails
+/// with [`ErrorKind::Measuring`] for scans of two patients, unless the caller accepts another patient.
+pub fn doubts(
+    [earlier, later]: &[ScanIdentity; 2],
+    is_other_accepted: bool,
+    is_named: bool,
+) -> Result<Vec<String>> {
     let mut doubts = Vec::new();
     if !earlier.is_comparable(later) {
         doubts.push("at least one scan does not state its patient".to_owned());
@@ -49,7 +53,8 @@ pub fn doubts([earlier, later]: &[ScanIdentity; 2], is_other_accepted: bool) -> 
             let error = Error::new(ErrorKind::Measuring, "scans to compare", both, "scans of one patient");
             return Err(error.mend("choose two scans of one patient").mended_by(Mend::OtherPatient));
         }
-        doubts.push(format!("the scans are of two patients: {both}"));
+        let which = if is_named { format!(": {both}") } else { String::new() };
+        doubts.push(format!("the scans are of two patients{which}"));
     }
     let (one, other) = (&earlier.modality, &later.modality);
     if !one.is_empty() && !other.is_empty() && one != other {
@@ -72,25 +77,29 @@ mod tests {
     #[test]
     fn scans_of_two_patients_are_refused_or_doubted_with_both_names() {
         let scans = [scan("A1", "", "CT"), scan("B2", "Ward", "CT")];
-        let error = doubts(&scans, false).expect_err("two patients");
+        let error = doubts(&scans, false, true).expect_err("two patients");
         assert_eq!(error.found, "PatientID 'A1' and PatientID 'B2' of 'Ward'");
         assert_eq!(error.mended_by, Some(Mend::OtherPatient));
-        let accepted = doubts(&scans, true).expect("accepted");
-        assert_eq!(accepted, ["the scans are of two patients: PatientID 'A1' and PatientID 'B2' of 'Ward'"]);
+        let accepted = |is_named| doubts(&scans, true, is_named).expect("accepted");
+        assert_eq!(
+            accepted(true),
+            ["the scans are of two patients: PatientID 'A1' and PatientID 'B2' of 'Ward'"]
+        );
+        assert_eq!(accepted(false), ["the scans are of two patients"]);
     }
 
     #[test]
     fn issuers_count_only_if_both_are_stated() {
         let of = |issuer: &str| scan("A1", issuer, "CT");
-        assert!(doubts(&[of("X"), of("Y")], false).is_err());
-        assert_eq!(doubts(&[of("X"), of("")], false).expect("one patient"), Vec::<String>::new());
+        assert!(doubts(&[of("X"), of("Y")], false, true).is_err());
+        assert_eq!(doubts(&[of("X"), of("")], false, true).expect("one patient"), Vec::<String>::new());
     }
 
     #[test]
     fn unknown_patients_and_two_modalities_are_doubts() {
-        let found = doubts(&[scan("", "", "CT"), scan("A1", "", "MR")], false).expect("doubts");
+        let found = doubts(&[scan("", "", "CT"), scan("A1", "", "MR")], false, true).expect("doubts");
         assert_eq!(found[0], "at least one scan does not state its patient");
         assert!(found[1].starts_with("the earlier scan is CT, the later one MR"), "{found:?}");
-        assert_eq!(doubts(&Default::default(), false).expect("doubts").len(), 1);
+        assert_eq!(doubts(&Default::default(), false, true).expect("doubts").len(), 1);
     }
 }

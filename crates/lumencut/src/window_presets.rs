@@ -98,7 +98,7 @@ const fn from_data(name: &'static str, words: &'static str, window: DataWindow) 
 }
 
 /// The named windows in display order; bone and lung have the values of the OHIF viewer.
-pub const WINDOW_PRESETS: [WindowPreset; 8] = [
+pub const WINDOW_PRESETS: [WindowPreset; 9] = [
     from_data("auto", "From the data", DataWindow::Auto),
     fixed("cta", "CT angiography", 300.0, 900.0),
     fixed("soft-tissue", "Soft tissue", 40.0, 400.0),
@@ -108,6 +108,7 @@ pub const WINDOW_PRESETS: [WindowPreset; 8] = [
     from_data("mra", "MR angiography", DataWindow::Mra),
     // This window separates the struts of a stent from the lumen inside.
     fixed("stent", "Stent", 400.0, 1500.0),
+    fixed("sac", "Aneurysm sac", 150.0, 600.0),
 ];
 
 #[cfg(test)]

@@ -104,7 +104,9 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
         names = tuple(name for name in _CONTEXT if name != "context")
         yield names, "with --context none", "choose a context"
     elif settings.focus is None:
-        yield ("context_from",), "without a focus, around which it counts", "give --focus"
+        yield ("context_from", "context_halo"), "without a focus, around which it counts", "give --focus"
+    if settings.context_preview:
+        yield ("context_body",), "with --context-preview, which leaves it out", "leave out --context-preview"
     if settings.context in ("minip", "average"):
         why = f"with --context {settings.context}, which is grey in its window"
         yield ("context_transfer",), why, "choose another --context"

@@ -21,7 +21,7 @@ _Context: TypeAlias = "click.Context | None"
 BYTES = {"": 1, "k": 1 << 10, "m": 1 << 20, "g": 1 << 30, "t": 1 << 40}
 
 #: The names of ``lumencut.scene.window.WINDOW_NAMES``; copied so that ``--help`` does not import numpy.
-WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent")
+WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac")
 
 
 class Parts(_Type):

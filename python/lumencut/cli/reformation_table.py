@@ -13,6 +13,7 @@ from lumencut.cli import reformation_options as shared
 from lumencut.cli.cfa import FEATURES, show_cfa
 from lumencut.cli.cpr import MODES, show_cpr
 from lumencut.cli.dicom import grey_option
+from lumencut.cli.flatten import show_flattened
 from lumencut.cli.parameters import SIZE, VECTOR, Parts
 from lumencut.cli.reformation_options import option
 from lumencut.cli.reformations import show_each
@@ -329,4 +330,24 @@ _NETWORK = _command(
     ),
 )
 
-COMMANDS = (_CPR, _CFA, _SPIRAL, _UNCURL, _MAP, _UNTANGLED, _NETWORK)
+_FLATTEN = _command(
+    "flatten",
+    show_flattened,
+    "Show the surface through several curves as a flat image.",
+    """Show the surface through the curves of CENTERLINES as a flat image, such as both rims of a jaw.
+
+    The curves stand in their order in the file, from one side of the surface to the other. Lines cross all
+    of them at equal shares of their lengths. Lengths are true along what is kept, and in the middle
+    across it.
+
+    \b
+    lumencut flatten ct.nii.gz rims.mrk.json -o jaw.png --slab 4mm:mean
+    """,
+    (
+        shared.output("Picture (.png, .tif, .webp, …), or .npz for the arrays."),
+        option("--keep", ("lines", "rows"), "Keep the lengths along lines, or along the curves.", "lines"),
+        shared.SIDE,
+    ),
+)
+
+COMMANDS = (_CPR, _CFA, _SPIRAL, _UNCURL, _MAP, _UNTANGLED, _NETWORK, _FLATTEN)

@@ -25,9 +25,9 @@ from lumencut.cli.scene import read_files, scene_from
 def sheet(volume: Path, centerlines: tuple[Path, ...], output: Path, **chosen: Any) -> None:
     """Show the tree of CENTERLINES in VOLUME on one page, and its vessels along their length.
 
-    Each vessel has a straightened CPR that always cuts the narrowest side, a lumen map and its diameters, on
-    one axis of arc length with the same scale for all. Red lines mark suggested places. Without --vessel, the
-    12 longest vessels have a row. Needs matplotlib: pip install "lumencut[plot]".
+    Each vessel has a straightened CPR that always cuts the narrowest side, a lumen map and its diameters.
+    They share one axis of arc length, with the same scale for all vessels. Red lines mark suggested places.
+    Without --vessel, the 12 longest vessels have a row. Needs matplotlib: pip install "lumencut[plot]".
 
     \b
     lumencut sheet ct.nii.gz lines.vtp -o sheet.pdf

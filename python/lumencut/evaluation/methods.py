@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -14,7 +13,7 @@ from lumencut import _lumencut
 from lumencut.base.checks import choice
 from lumencut.errors import SettingsError
 from lumencut.evaluation.own_pictures import untangled_picture
-from lumencut.evaluation.shown import Shown
+from lumencut.evaluation.shown import TURN, Shown, slid
 from lumencut.pictures.frame import Frame
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.reformation import Reformation
@@ -141,7 +140,7 @@ def checked_methods(names: Any) -> tuple[str, ...]:
 def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Settings) -> Shown:
     """Render all images that the measures need."""
     frame = method.surface(renderer, camera, settings)
-    turned = method.surface(renderer, camera.rotated(math.radians(1.0), "up"), settings)
+    turned = method.surface(renderer, camera.rotated(TURN, "up"), settings)
     unfiltered = replace(settings, depth_filter=False)
     plain = method.surface(renderer, camera, unfiltered) if method.is_filtered else frame
     details = method.details(renderer, camera, settings)
@@ -151,6 +150,7 @@ def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Setti
         position=frame.position,
         turned_depth=turned.depth,
         turned_vessel=turned.vessel,
+        slides=slid(camera, frame.depth, turned.depth, turned.position),
         value=frame.value if frame.has("value") else None,
         plain_depth=plain.depth,
         strength=details.get("strength"),

@@ -58,6 +58,7 @@ def nothing_shown(truth: Truth) -> Shown:
         position=position,
         turned_depth=depth,
         turned_vessel=vessel,
+        slides=np.zeros(depth.shape, bool),
         value=None,
         plain_depth=depth,
         strength=None,

@@ -6,10 +6,8 @@ import numpy as np
 
 from lumencut.evaluation.amounts import Amounts, Columns, counted, percent, ratio
 from lumencut.evaluation.centerline import SEPARATE_ARC_MM
-from lumencut.evaluation.shown import Shown
+from lumencut.evaluation.shown import JUMP_MM, Shown
 from lumencut.evaluation.truth import Truth
-
-_JUMP_MM = 5.0
 
 
 def blend_amounts(_: Truth, shown: Shown) -> Amounts:
@@ -44,8 +42,10 @@ def steadiness_amounts(_: Truth, shown: Shown) -> Amounts:
         "pixels": change.size,
         "with depth": counted(~np.isnan(change)),
         "change": float(np.nansum(change)),
-        "jumps": counted(change > _JUMP_MM),
+        "jumps": counted(change > JUMP_MM),
         "zones": counted(shown.turned_vessel != shown.vessel),
+        "slides": counted(shown.slides),
+        "slides of views": np.array([100.0 * shown.slides.mean()]),
     }
 
 
@@ -55,4 +55,6 @@ def steadiness_columns(amounts: Amounts) -> Columns:
         "depth_change_per_degree_mm": ratio(amounts["change"], amounts["with depth"]),
         "jumps_per_degree_percent": percent(amounts["jumps"], amounts["with depth"]),
         "zone_changes_per_degree_percent": percent(amounts["zones"], amounts["pixels"]),
+        "slides_per_degree_percent": percent(amounts["slides"], amounts["pixels"]),
+        "slides_per_degree_max_percent": float(amounts["slides of views"].max()),
     }

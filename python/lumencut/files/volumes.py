@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.base.checks import callback
 from lumencut.base.foreign_errors import Progress
 from lumencut.base.overlaps import OverlapError
@@ -258,6 +259,8 @@ def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
     dtype, value_range = file.dtype.newbyteorder("="), None
     if volume is not None:
         dtype, value_range = volume.array.dtype, _finite_range(volume.array, file.notes)
+        cut_off = None if file.is_segmentation else _lumencut.cut_off_note(volume)
+        file.notes.extend([cut_off] if cut_off else [])
     spacing = np.linalg.norm(file.world_from_index[:3, :3], axis=0)
     return VolumeReport(
         path=file.path,

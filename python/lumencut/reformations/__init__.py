@@ -11,6 +11,7 @@ from lumencut.base.public_names import public_name
 
 if TYPE_CHECKING:
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
+    from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
     from lumencut.reformations.network_map import NetworkMap, network
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FeatureAggregation",
+    "FlattenedSurface",
     "LumenMap",
     "NetworkMap",
     "Ostium",
@@ -39,6 +41,7 @@ __all__ = [
     "cfa",
     "cpr",
     "cr",
+    "flatten",
     "lumen_map",
     "mpcpr",
     "network",

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 HEAD = (0.0, 0.0, 1.0)
 
 #: Parameters that must be one of these names.
-_NAMES = ("mode", "roll", "sampling", "show")
+_NAMES = ("keep", "mode", "roll", "sampling", "show")
 
 #: The shapes of parameters with several numbers.
 _SHAPES = {"up": (3,), "normal": (3,), "root": (3,), "band": (2,)}

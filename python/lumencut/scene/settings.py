@@ -68,7 +68,7 @@ class Settings(CheckedSettings):
     samples : int, 1 to 4, default 1
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
-    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
+    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
     opacity : Opacity, optional
@@ -85,6 +85,8 @@ class Settings(CheckedSettings):
         Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
         same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
         as in the paper; far from vessels they only mark borders of zones.
+    occlusion : float, 0 to 1, default 0
+        Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     rim : {"diameter", "narrowing", "deviation", "uncertainty"} or None, optional
@@ -120,7 +122,7 @@ class Settings(CheckedSettings):
         largest, smallest and mean value along each ray.
     context_gamma : float, -1 to 1, default 0
         Blend for ``mida`` (number, -1 to 1): -1 is ``dvr``, 0 ``mida``, 1 ``mip``.
-    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
+    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
         Intensities that the context maps to 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         ``mida`` scales its differences by it; ``minip`` and ``average`` show it from black to white; named
         transfer functions lie within it. If not given, it comes from the data whatever ``window`` is:
@@ -141,6 +143,10 @@ class Settings(CheckedSettings):
         whole.
     context_strength : float, 0 to 1, default 1
         Brightness of the context: factor of its colours (number, 0 to 1).
+    context_halo : float, 0 to 1, default 0
+        Darken the context around a ``focus`` (number, 0 to 1).
+    context_body : bool, default False
+        Outline the body if the scan shows air around it; not in previews.
     context_preview : bool, default False
         Trace one ray per 6 × 6 pixels: faster and coarser.
 
@@ -170,6 +176,7 @@ class Settings(CheckedSettings):
     silhouette_rule: SilhouetteRuleName = "leap"
     silhouette_slope: float = 24.0
     silhouette_reach: float | None = 10.0
+    occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     rim: RimName | None = None
     tree: TreeName = "hidden"
@@ -186,4 +193,6 @@ class Settings(CheckedSettings):
     context_shading: bool = False
     context_from: ContextFromName | None = None
     context_strength: float = 1.0
+    context_halo: float = 0.0
+    context_body: bool = False
     context_preview: bool = False

@@ -113,18 +113,18 @@ class Window:
         """Return the window that has a name.
 
         Those of fixed values are for HU: ``"cta"`` 900/300 (width/level), which shows contrast medium as
-        middle grey and calcifications brighter, ``"soft-tissue"`` 400/40, ``"stent"`` 1500/400, and
-        ``"bone"`` 2500/480 and ``"lung"`` 1500/-600, as the OHIF viewer has them. The others are taken from
-        the volume: ``"auto"`` as :meth:`from_data` does, ``"full"`` from the smallest voxel to the largest,
-        and ``"mra"`` all tissues of an MR angiography, whose values have no unit: from the 1st percentile to
-        the 99.9th of all that is no padding.
+        middle grey and calcifications brighter, ``"soft-tissue"`` 400/40, ``"stent"`` 1500/400, ``"sac"``
+        600/150 for thrombus in an aneurysm, and ``"bone"`` 2500/480 and ``"lung"`` 1500/-600, as the OHIF
+        viewer has them. The others are taken from the volume: ``"auto"`` as :meth:`from_data` does,
+        ``"full"`` from the smallest voxel to the largest, and ``"mra"`` all tissues of an MR angiography,
+        whose values have no unit: from the 1st percentile to the 99.9th of all that is no padding.
 
         Parameters
         ----------
-        name : {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}
+        name : {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}
             The name of the window.
         volume : Volume, or anything :func:`lumencut.render` takes as one, optional
-            The angiography; ``"cta"``, ``"soft-tissue"``, ``"bone"``, ``"lung"`` and ``"stent"`` need none.
+            The angiography; windows of fixed values need none.
         tree : VesselTree, optional
             Its centerlines, for ``"auto"``.
 

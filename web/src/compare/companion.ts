@@ -3,13 +3,15 @@ import { effect } from '@preact/signals';
 import { expose, windowEndpoint } from 'comlink';
 import { Failure } from '../core/failure';
 import type { LinkedPlace, MeasuredScan, OtherScan, Seen } from '../core/linked';
+import type { Vector } from '../core/messages';
 import { composed } from '../output/pictures';
 import { pngOf } from '../output/report-pictures';
 import { showOneIfNarrow } from '../state/actions';
 import { followSeen, scanNow, takeSeen } from '../state/linked-view';
+import { crossHair } from '../state/store';
 import { beCompanion } from '../state/two-scans';
 import { leave } from '../study/unsaved';
-import { measuredHere, placeHere } from './measured';
+import { measuredHere, placeAt } from './measured';
 import { followOperation } from './operation';
 
 /** What the companion sends to the main page. `turn` is the number of the last view that it took. */
@@ -34,8 +36,12 @@ export class Companion {
     takeSeen(seen);
   }
 
-  place(): Promise<LinkedPlace | null> {
-    return placeHere();
+  crossHair(): Vector | null {
+    return crossHair.value?.point ?? null;
+  }
+
+  placeAt(point: Vector): Promise<LinkedPlace> {
+    return placeAt(point);
   }
 
   async measured(): Promise<MeasuredScan> {

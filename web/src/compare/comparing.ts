@@ -16,7 +16,7 @@ import {
   type VesselComparison,
 } from '../state/two-scans';
 import { engine } from '../worker/engine';
-import { measuredHere, placeHere } from './measured';
+import { measuredHere, placeAt } from './measured';
 import { otherPage } from './other-page';
 
 const FIRST_SIZE: Pair = [1000, 260];
@@ -28,9 +28,12 @@ export async function compareVessels(isAnyPatient = false): Promise<void> {
     const [here, there] = await Promise.all([measuredHere(), otherPage().measured()]);
     const isEarlier = isOtherEarlier.value;
     const inOrder = <T>(own: T, other: T): [T, T] => ordered(isEarlier, own, other);
+    const places = await Promise.all(
+      pairs.value.map((pair) => Promise.all([placeAt(pair[0]), otherPage().placeAt(pair[1])])),
+    );
     const asked: ScansToCompare = {
       records: inOrder(here.record, there.record),
-      pairs: pairs.value.flatMap((pair) => {
+      pairs: places.flatMap((pair) => {
         const [a, b] = pair.map(({ at }) => at);
         const areOnVessels = pair[0].line === here.line && pair[1].line === there.line;
         return areOnVessels && a != null && b != null ? [inOrder(a, b)] : [];
@@ -39,6 +42,7 @@ export async function compareVessels(isAnyPatient = false): Promise<void> {
       scans: inOrder(here.scan, there.scan),
       identities: inOrder(here.identity, there.identity),
       other_patient: isAnyPatient,
+      is_named: true,
       pictures: [],
     };
     const answer = await engine.ask('compare_scans', { scans: asked, size: FIRST_SIZE });
@@ -62,7 +66,7 @@ export async function drawComparison(found: VesselComparison, size: Pair): Promi
 
 /** Records that the cross-hairs of both scans are at places that belong together. */
 export async function pairPlaces(): Promise<void> {
-  const [here, there] = await Promise.all([placeHere(), otherPage().place()]);
+  const [here, there] = [store.crossHair.value?.point, await otherPage().crossHair()];
   if (here && there) {
     addPair(here, there);
   }
@@ -74,10 +78,9 @@ export async function saveComparison(kind: 'html' | 'csv' | 'json'): Promise<voi
   if (!found) {
     throw new Failure('picture', 'comparison', 'none', 'a vessel compared in both scans');
   }
-  const { asked } = found;
-  const scans = isScanNamed.value ? asked.scans : UNNAMED;
   const pictures = kind === 'html' ? await bothPictures(found.isOtherEarlier) : [];
-  const text = await engine.ask('comparison_file', { scans: { ...asked, scans, pictures }, kind });
+  const scans = { ...found.asked, is_named: isScanNamed.value, pictures };
+  const text = await engine.ask('comparison_file', { scans, kind });
   const scan = isScanNamed.value ? store.studyName.value : null;
   saveAs(new Blob([text], { type: TYPES[kind] }), fileName({ scan, content: 'comparison', ending: kind }));
 }
@@ -87,5 +90,4 @@ async function bothPictures(isEarlier: boolean): Promise<readonly string[]> {
   return ordered(isEarlier, pngOf(await composed('labels')), there);
 }
 
-const UNNAMED = ['earlier scan', 'later scan'] as const;
 const TYPES = { html: 'text/html', csv: 'text/csv', json: 'application/json' } as const;

@@ -1,14 +1,13 @@
 /** The picked vessel of this page, measured for a comparison, and the place of its cross-hair. */
 import { Failure } from '../core/failure';
 import type { LinkedPlace, MeasuredScan } from '../core/linked';
-import type { ScanIdentity } from '../core/messages';
+import type { ScanIdentity, Vector } from '../core/messages';
 import { currentVessel } from '../measure/current';
 import { hasMillimetres } from '../state/millimetres';
 import { profileOfLine } from '../state/profiles';
-import { crossHair, report, scanStudy, studyName } from '../state/store';
+import { report, scanStudy, studyName } from '../state/store';
 import { engine } from '../worker/engine';
 
-/** What a file without a DICOM header states. */
 const UNSTATED: ScanIdentity = { patient: '', issuer: '', modality: '' };
 
 /** Measures the picked vessel. Throws `Failure` without one, or without lengths in mm. */
@@ -45,12 +44,7 @@ export async function measuredHere(): Promise<MeasuredScan> {
   };
 }
 
-/** The cross-hair; on a vessel with its line and arc length, even if it has just moved. */
-export async function placeHere(): Promise<LinkedPlace | null> {
-  const point = crossHair.value?.point;
-  if (!point) {
-    return null;
-  }
+export async function placeAt(point: Vector): Promise<LinkedPlace> {
   const { vessel, arc_length: at } = await engine.ask('at', point);
   return { point, line: report.value?.vessels?.[vessel ?? -1]?.line ?? null, at };
 }

@@ -78,10 +78,9 @@ export function disconnect(): void {
 /** Asks for the motion to the other scan by its position, or by pairs. */
 function place(corners: readonly Vector[], given: typeof pairs.value): void {
   const other = otherScan.value?.corners ?? [];
-  const points = given.map(([here, there]) => [here.point, there.point] as const);
   latest.run(async () => {
     try {
-      setPlaced(await engine.ask('motion_between', { corners: [corners, other], pairs: points }));
+      setPlaced(await engine.ask('motion_between', { corners: [corners, other], pairs: given }));
     } catch (error) {
       store.showProblem(error);
     }

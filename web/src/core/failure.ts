@@ -45,6 +45,17 @@ export interface More {
 /** The `kind` of a failure after a crash of the WebAssembly module, which then answers no more requests. */
 export const CRASH = 'crash';
 
+/** The failure after a crash. `memory` is what the engine had (bytes), if it could not have got much more. */
+export function crashed(text: string, memory: number | null = null): Failure {
+  const isShort = memory !== null;
+  const found = isShort
+    ? `a crash, probably because memory is short: ${Math.round(memory / 2 ** 20)} MiB are in use`
+    : `a crash: ${text}`;
+  const close = isShort ? 'close other pages, ' : '';
+  const advice = `save the session, ${close}reload the page, and open the scan and the session again`;
+  return new Failure(CRASH, 'the engine of the page', found, 'an answer', advice);
+}
+
 /** An error with advice as text, and with named remedies that the page puts into words. */
 export class Failure extends Error {
   readonly mends: readonly Mend[];
@@ -89,8 +100,7 @@ export class Failure extends Error {
       return new Failure(kind, subject, found, expected, mend, fields);
     }
     if (thrown instanceof Error && thrown.name === 'RuntimeError') {
-      const advice = 'save the session, reload the page, and open the scan and the session again';
-      return new Failure(CRASH, 'the engine of the page', `a crash: ${text}`, 'an answer', advice);
+      return crashed(text);
     }
     return new Failure('unexpected', 'the page', text, 'no error', 'reload the page and open the scan again');
   }

@@ -1,8 +1,21 @@
 /** What two pages with one scan each send each other, so that their views stay linked. */
-import type { Camera, LineId, Method, ScanIdentity, Settings, Vector, Window } from './messages';
+import type {
+  Camera,
+  LineId,
+  Method,
+  SavedScan,
+  ScanIdentity,
+  Settings,
+  Slices,
+  Vector,
+  VolumeReport,
+  Window,
+} from './messages';
 
-export const LINKS = ['cameras', 'cross-hairs', 'windows', 'looks'] as const;
+export const LINKS = ['cameras', 'cross-hairs', 'slices', 'windows', 'looks', 'layouts'] as const;
 export type Link = (typeof LINKS)[number];
+
+export const gridOf = ({ size, world_from_index }: VolumeReport): SavedScan => ({ size, world_from_index });
 
 /** A position of the cross-hair; on a vessel also its line and the arc length (mm). */
 export interface LinkedPlace {
@@ -21,7 +34,9 @@ export interface LinkedLook {
 export interface Seen {
   readonly cameras?: Camera;
   readonly 'cross-hairs'?: LinkedPlace;
+  readonly slices?: Slices;
   readonly windows?: Window;
+  readonly layouts?: string;
   readonly looks?: LinkedLook;
 }
 
@@ -29,6 +44,7 @@ export interface OtherScan {
   /** Counts the scans that were opened in that page. */
   readonly count: number;
   readonly name: string;
+  readonly grid: SavedScan;
   readonly corners: readonly Vector[];
   readonly lines: readonly LineId[];
   readonly isHounsfield: boolean;

@@ -38,6 +38,18 @@ let held: WebAssembly.Memory | null = null;
 /** Memory of the WebAssembly module (bytes); it never shrinks. */
 export const memorySize = (): number => held?.buffer.byteLength ?? 0;
 
+const PAGE = 65536;
+
+/** Whether the module can have so many bytes more. It keeps them, so this is for a module that has crashed. */
+export function canGrow(bytes: number): boolean {
+  try {
+    held?.grow(Math.ceil(bytes / PAGE));
+    return true;
+  } catch {
+    return false;
+  }
+}
+
 export async function loadModule(): Promise<Shared> {
   const address = new URL('./pkg/lumencut_bg.wasm', import.meta.url);
   const module = await WebAssembly.compileStreaming(fetch(address));

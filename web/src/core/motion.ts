@@ -1,5 +1,6 @@
 /** Rigid motions from the coordinates of one scan to those of another. */
-import type { Camera, Motion, Vector } from './messages';
+import type { Camera, Motion, SliceAxes, Slices, Vector } from './messages';
+import { settled } from './slices';
 import { add, dot, negate } from './vectors';
 
 export const turnedBy = ({ rotation: [x, y, z] }: Motion, vector: Vector): Vector => [
@@ -26,3 +27,11 @@ export const cameraBy = (motion: Motion, camera: Camera): Camera => ({
   direction: turnedBy(motion, camera.direction),
   up: turnedBy(motion, camera.up),
 });
+
+export function slicesBy(motion: Motion, { axial, coronal, sagittal, slab }: Slices): Slices {
+  const turn = ({ right, down }: SliceAxes): SliceAxes => ({
+    right: turnedBy(motion, right),
+    down: turnedBy(motion, down),
+  });
+  return settled({ axial: turn(axial), coronal: turn(coronal), sagittal: turn(sagittal), slab });
+}

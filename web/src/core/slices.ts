@@ -27,8 +27,7 @@ export function turnedSlices(slices: Slices, about: SliceName, angle: number): S
     }
     const right = unit(turned(slices[name].right, axis, angle));
     const loose = turned(slices[name].down, axis, angle);
-    const axes = { right, down: unit(subtract(loose, scale(right, dot(loose, right)))) };
-    return areSame(axes, STANDARD[name]) ? STANDARD[name] : axes;
+    return { right, down: unit(subtract(loose, scale(right, dot(loose, right)))) };
   };
   return settled({ ...slices, axial: turn('axial'), coronal: turn('coronal'), sagittal: turn('sagittal') });
 }
@@ -36,8 +35,17 @@ export function turnedSlices(slices: Slices, about: SliceName, angle: number): S
 export const isTurned = (slices: Slices): boolean =>
   SLICE_NAMES.some((name) => slices[name] !== STANDARD[name]);
 
-/** The standard slices themselves, if these are equal to them. */
-export const settled = (slices: Slices): Slices => (slices.slab || isTurned(slices) ? slices : STANDARD);
+/** Slices in which planes that equal standard ones are these themselves, also after a file or another page held them. */
+export function settled(slices: Slices): Slices {
+  const known = (name: SliceName) => (areSame(slices[name], STANDARD[name]) ? STANDARD[name] : slices[name]);
+  const found = {
+    axial: known('axial'),
+    coronal: known('coronal'),
+    sagittal: known('sagittal'),
+    slab: slices.slab,
+  };
+  return found.slab || isTurned(found) ? found : STANDARD;
+}
 
 /** Slices from an address; null if anything in them is invalid. */
 export function slicesIn(value: unknown): Slices | null {
@@ -51,7 +59,7 @@ export function slicesIn(value: unknown): Slices | null {
     return null;
   }
   const [a, b, c] = planes.map((plane) => normalOf(plane as SliceAxes));
-  return areAxes(a, b) && areAxes(b, c) && areAxes(c, a) ? (value as unknown as Slices) : null;
+  return areAxes(a, b) && areAxes(b, c) && areAxes(c, a) ? settled(value as unknown as Slices) : null;
 }
 
 /** Largest thickness of a slab (mm). */

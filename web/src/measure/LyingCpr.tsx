@@ -37,6 +37,7 @@ export function LyingCpr({ x, lying, height }: LyingCprProps) {
         name="profile"
         words="picked vessel, straightened, its first point on the left"
         ask={text ? ask : null}
+        label={`${store.pickedLine()} ${store.cprFeature.value}`}
         handlers={handlersOf(x)}
         style={pixels(box)}
       />

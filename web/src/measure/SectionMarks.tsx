@@ -118,7 +118,11 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <div style={{ color: AXES.longest }}>{`longest ${mm((pulled ?? numbers).longest)}`}</div>
         <div>{`area ${area((pulled ?? numbers).area)}`}</div>
         {outer && <div style={{ color: CONTOUR.outer }}>{withKnownUnits(outer)}</div>}
-        {lumens && <div style={{ color: CONTOUR.own }}>{withKnownUnits(lumens)}</div>}
+        {lumens?.map((words, n) => (
+          <div key={words} style={{ color: [CONTOUR.own, CONTOUR.other][n] }}>
+            {withKnownUnits(words)}
+          </div>
+        ))}
         {isDrawn && <div style={{ color: CONTOUR.byHand }}>contour by hand</div>}
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
         {flags.length > 0 && (

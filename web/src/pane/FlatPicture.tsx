@@ -2,13 +2,13 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { GESTURES } from '../core/generated/tables';
-import { Latest } from '../core/latest';
 import type { Pair, Picture } from '../core/messages';
 import { arrowOf, scrollOfKey, zoomOfKey } from '../input/keys';
 import { type Handlers, listen } from '../input/pointer';
 import { recover } from '../state/device';
 import { isInverted, type ViewName } from '../state/store';
 import { usePaneSize } from './pane-size';
+import { PictureRequests } from './picture-requests';
 
 interface FlatPictureProps {
   readonly name: ViewName;
@@ -18,6 +18,8 @@ interface FlatPictureProps {
   readonly handlers: Handlers;
   readonly empty?: string;
   readonly style?: Record<string, string>;
+  /** What the page states about the picture. A picture with another label disappears while the new one is computed. */
+  readonly label?: string;
   /** Whether the displayed picture is outdated. */
   readonly isLate?: boolean;
   readonly onSize?: (size: Pair) => void;
@@ -35,6 +37,7 @@ export function FlatPicture({
   handlers,
   empty,
   style,
+  label = '',
   isLate,
   onSize,
   onArrow,
@@ -43,21 +46,22 @@ export function FlatPicture({
 }: FlatPictureProps) {
   const pane = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
-  const latest = useRef(new Latest());
   const current = useRef(handlers);
   current.current = handlers;
-  const asked = useRef(ask);
-  asked.current = ask;
   const size = usePaneSize(pane);
   const [isPending, setPending] = useState(false);
-
-  // When the view is closed, its pending requests are dropped.
-  useEffect(
-    () => () => {
-      asked.current = null;
+  const [shown, setShown] = useState(label);
+  const requests = useRef<PictureRequests>(null);
+  requests.current ??= new PictureRequests({
+    show: (picture, its) => {
+      paint(canvas.current, picture);
+      setShown(its);
     },
-    [],
-  );
+    rest: () => setPending(false),
+    fail: recover,
+  });
+
+  useEffect(() => () => requests.current?.want(null), []);
 
   useEffect(() => {
     if (size) {
@@ -69,28 +73,10 @@ export function FlatPicture({
     if (!ask) {
       clear(canvas.current);
     }
-    if (!ask || !size || size[0] < 2 || size[1] < 2) {
-      setPending(false);
-      return;
-    }
-    setPending(true);
-    latest.current.run(async () => {
-      try {
-        const picture = await ask(size);
-        if (asked.current !== null) {
-          paint(canvas.current, picture);
-        }
-      } catch (error) {
-        // Ignore errors of requests that are no longer current.
-        if (asked.current === ask) {
-          recover(error);
-        }
-      }
-      if (asked.current === ask) {
-        setPending(false);
-      }
-    });
-  }, [ask, size]);
+    const isAsked = ask !== null && size !== null && size[0] >= 2 && size[1] >= 2;
+    setPending(isAsked);
+    requests.current?.want(isAsked ? { ask, size, label } : null);
+  }, [ask, size, label]);
 
   useEffect(() => {
     const element = pane.current;
@@ -103,6 +89,7 @@ export function FlatPicture({
       : undefined;
   }, []);
 
+  const isOutdated = isLate || shown !== label;
   return (
     <div
       class="pane-body"
@@ -116,7 +103,7 @@ export function FlatPicture({
     >
       <canvas
         ref={canvas}
-        class={`flat${isInverted.value ? ' inverted' : ''}${isLate ? ' late' : ''}`}
+        class={`flat${isInverted.value ? ' inverted' : ''}${isOutdated ? ' late' : ''}`}
         style={style}
       />
       <div class="overlay">

@@ -1,18 +1,21 @@
 /** The view as pages with two scans exchange it. Only the page that the user operates sends its view. */
 import { batch, computed, effect } from '@preact/signals';
 import { resized } from '../core/camera';
-import type { LinkedPlace, OtherScan, Seen } from '../core/linked';
+import { gridOf, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
 import type { VolumeReport } from '../core/messages';
+import { settled } from '../core/slices';
 import { setWindow } from './actions';
 import { moveCrossHair, moveTo } from './cross-hair';
-import { showView } from './opened';
+import { showLayoutNamed, showView } from './opened';
 import * as store from './store';
 
 type Part = () => Seen | null;
 
 const PARTS: readonly Part[] = [
   () => store.camera.value && { cameras: store.camera.value },
+  () => ({ slices: store.slices.value }),
   () => ({ windows: store.window_.value }),
+  () => ({ layouts: store.layout.value }),
   () => ({
     looks: {
       method: store.method.value,
@@ -58,7 +61,7 @@ export function followSeen(send: (seen: Seen) => void): () => void {
 }
 
 /** Shows what the user sees in the other page. Panes keep their sizes, and pixels their size in mm. */
-export function takeSeen({ cameras, windows, looks, 'cross-hairs': place }: Seen): void {
+export function takeSeen({ cameras, slices, windows, layouts, looks, 'cross-hairs': place }: Seen): void {
   setOperated(false);
   const camera = store.camera.value;
   batch(() => {
@@ -66,13 +69,18 @@ export function takeSeen({ cameras, windows, looks, 'cross-hairs': place }: Seen
       const { pixel_spacing } = cameras;
       store.camera.value = { ...resized(cameras, camera.size), pixel_spacing };
     }
+    if (slices) {
+      store.slices.value = settled(slices);
+    }
     if (windows) {
       setWindow(windows);
+    }
+    if (layouts) {
+      showLayoutNamed(layouts);
     }
     if (looks && store.camera.value) {
       const { isInverted, ...look } = looks;
       store.isInverted.value = isInverted;
-      // Layout and planes of the slices are free: tracing in one scan changes the layout.
       const free = { window: null, layout: '', crossHair: null, slices: store.slices.value };
       showView({ ...look, ...free, camera: store.camera.value });
     }
@@ -106,6 +114,7 @@ export function scanNow(): OtherScan | null {
     ? {
         count,
         name: store.studyName.value,
+        grid: gridOf(report.volume),
         corners: report.volume.corners,
         lines: (report.vessels ?? []).map(({ line }) => line),
         isHounsfield: report.windows?.is_hounsfield ?? false,

@@ -80,21 +80,21 @@ export interface ShownView {
 }
 
 export function showView({ camera, method, settings, window, layout, crossHair, slices }: ShownView): void {
-  const isLayout = (name: string): name is store.Layout =>
-    (store.LAYOUTS as readonly string[]).includes(name);
   batch(() => {
     store.camera.value = camera;
     store.method.value = method;
     store.settings.value = settings;
     store.window_.value = window ?? store.window_.value;
     store.slices.value = slices;
-    if (isLayout(layout)) {
-      store.layout.value = layout;
-    }
+    showLayoutNamed(layout);
     if (crossHair) {
       store.putCrossHair(crossHair);
     }
   });
+}
+
+export function showLayoutNamed(name: string): void {
+  store.layout.value = store.LAYOUTS.find((layout) => layout === name) ?? store.layout.value;
 }
 
 type Open = (wish: SeriesWish) => Promise<void>;

@@ -12,7 +12,7 @@ import type {
 } from '../core/messages';
 import type { Window } from '../core/plain';
 import { engine } from '../worker/engine';
-import { shownVessels } from './changes';
+import { nameOf, shownVessels } from './changes';
 import { type Document, EMPTY } from './document';
 import { answered, editQueue } from './edit-queue';
 import { begin, document_, setGiven } from './history';
@@ -52,7 +52,10 @@ export const pickedId = (): number | null => tree.value[store.pickedVessel.value
 const listOf = (vessels: readonly DocumentVessel[]): readonly ListedLine[] =>
   vessels
     .filter((vessel) => vessel.doubt === null)
-    .map(({ line, name, isHidden, contours }) => ({ line, name, hidden: isHidden, contours }));
+    .map((vessel) => {
+      const { line, isHidden, contours } = vessel;
+      return { line, name: nameOf(vessel), hidden: isHidden, contours };
+    });
 /** What the engine shows of a document. */
 const shownOf = ({ vessels, bone_hidden }: VesselDocument): Message<'show'> => ({
   lines: listOf(vessels),

@@ -2,8 +2,16 @@
 import { batch, computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import { LINKS, type Link, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
-import type { ComparedScans, LineId, Motion, ScansToCompare, Vector } from '../core/messages';
-import { cameraBy, inverseOf, movedBy } from '../core/motion';
+import type {
+  ComparedScans,
+  LineId,
+  Motion,
+  SavedComparison,
+  ScansToCompare,
+  Vector,
+  VolumeReport,
+} from '../core/messages';
+import { cameraBy, inverseOf, movedBy, slicesBy } from '../core/motion';
 import * as store from './store';
 
 /** Whether a second page is shown next to this one, and whether this page is the second one. */
@@ -11,8 +19,9 @@ export const isBeside = signal(false);
 export const isCompanion = signal(false);
 
 export const otherScan = signal<OtherScan | null>(null);
-export const links = signal<readonly Link[]>(LINKS);
-export const pairs = signal<readonly (readonly [LinkedPlace, LinkedPlace])[]>([]);
+/** Layouts are free at first: tracing in one scan changes the layout. */
+export const links = signal<readonly Link[]>(LINKS.filter((link) => link !== 'layouts'));
+export const pairs = signal<readonly (readonly [Vector, Vector])[]>([]);
 /** The motion to the other scan by its position or by pairs; null until the engine has answered. */
 const placed = signal<Motion | null>(null);
 export const isOtherEarlier = signal(true);
@@ -62,6 +71,7 @@ export function takeOther(scan: OtherScan | null): void {
     otherScan.value = scan;
     if (isNew) {
       beginScans();
+      takeKept();
     }
   });
 }
@@ -91,7 +101,7 @@ export function linkAll(are: boolean): void {
   links.value = are ? LINKS : [];
 }
 
-export function addPair(here: LinkedPlace, there: LinkedPlace): void {
+export function addPair(here: Vector, there: Vector): void {
   pairs.value = [...pairs.value, [here, there]];
 }
 
@@ -108,6 +118,39 @@ export function setOtherEarlier(is: boolean): void {
     isOtherEarlier.value = is;
     forgetComparison();
   });
+}
+
+interface Kept {
+  readonly volume: VolumeReport | null | undefined;
+  readonly saved: SavedComparison;
+}
+
+let kept: Kept | null = null;
+
+/** Takes the comparison of an opened session as soon as its other scan is open. Returns false if it waits for that scan. */
+export function keepComparison(saved: SavedComparison | undefined): boolean {
+  kept = saved ? { volume: store.report.value?.volume, saved } : null;
+  return !saved || takeKept();
+}
+
+const keptHere = (): SavedComparison | null =>
+  kept && kept.volume === store.report.value?.volume ? kept.saved : null;
+
+function takeKept(): boolean {
+  const saved = keptHere();
+  if (!saved || JSON.stringify(otherScan.value?.grid) !== JSON.stringify(saved.scan)) {
+    return false;
+  }
+  batch(() => {
+    setOtherEarlier(saved.is_earlier);
+    pairs.value = saved.pairs_mm;
+  });
+  return true;
+}
+
+export function savedComparison(): SavedComparison | null {
+  const other = otherScan.value;
+  return other ? { scan: other.grid, is_earlier: isOtherEarlier.value, pairs_mm: pairs.value } : keptHere();
 }
 
 export function beginComparison(): void {
@@ -152,10 +195,12 @@ export function across(seen: Seen, fromOther: boolean): Seen {
     return {};
   }
   const way = fromOther ? inverseOf(there) : there;
-  const { cameras, 'cross-hairs': place, windows, looks } = linkedParts(seen);
+  const { cameras, 'cross-hairs': place, slices, windows, looks, layouts } = linkedParts(seen);
   const isSameUnit = otherScan.value?.isHounsfield === store.report.value?.windows?.is_hounsfield;
   return {
     ...(looks && { looks }),
+    ...(layouts && { layouts }),
+    ...(slices && { slices: slicesBy(way, slices) }),
     ...(windows && isSameUnit && { windows }),
     ...(cameras && { cameras: cameraBy(way, cameras) }),
     ...(place && { 'cross-hairs': placeAcross(place, movedBy(way, place.point), fromOther) }),

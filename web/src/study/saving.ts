@@ -14,15 +14,18 @@ import type {
   SavedView,
 } from '../core/messages';
 import { STANDARD } from '../core/planes';
+import { settled } from '../core/slices';
 import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
 import type { Document } from '../state/document';
 import { document_ } from '../state/history';
 import { contents } from '../state/lines';
+import { showMessage } from '../state/message';
 import { showView } from '../state/opened';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import { beginDocument, pickedId, tree } from '../state/shown';
 import * as store from '../state/store';
+import { keepComparison, savedComparison } from '../state/two-scans';
 import { EngineClient, engine } from '../worker/engine';
 import { cameraOf, contentOf, type DisplayState, documentOf } from './session-content';
 
@@ -77,6 +80,7 @@ function displayState(): DisplayState | null {
       layout: store.layout.value,
       crossHair: store.crossHair.value?.point ?? null,
       slices: store.slices.value,
+      compared: savedComparison(),
       picked: id === null ? null : { id, at: store.pickedPlace.value },
     }
   );
@@ -89,7 +93,7 @@ export async function openSession({ file }: GivenFile): Promise<void> {
     { name: file.name },
     { bytes: new Uint8Array(await file.arrayBuffer()) },
   );
-  const { view } = content.session;
+  const { view, compared } = content.session;
   const document = documentOf(content);
   batch(() => {
     beginDocument(document);
@@ -98,6 +102,11 @@ export async function openSession({ file }: GivenFile): Promise<void> {
       look(view);
     }
   });
+  if (!keepComparison(compared)) {
+    showMessage(
+      'This session compares the scan with another one: open that one by the layout "Two scans …".',
+    );
+  }
   if (view) {
     onceShown(document, () => point(view, document));
   }
@@ -143,7 +152,7 @@ function look(view: SavedView): void {
     window: Array.isArray(window) ? [Number(window[0]), Number(window[1])] : null,
     layout: view.layout,
     crossHair: view.cross_hair,
-    slices: view.slices ?? STANDARD,
+    slices: view.slices ? settled(view.slices) : STANDARD,
   });
 }
 

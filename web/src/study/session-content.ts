@@ -1,11 +1,12 @@
 /** Converts document and view to the content of a session file, and back. */
+import { gridOf } from '../core/linked';
 import type {
   Camera,
   DocumentVessel,
   Pair,
   Report,
+  SavedComparison,
   SavedMarks,
-  SavedScan,
   SavedView,
   SessionContent,
   Settings,
@@ -24,6 +25,7 @@ export interface DisplayState {
   readonly layout: string;
   readonly crossHair: Vector | null;
   readonly slices: Slices;
+  readonly compared: SavedComparison | null;
   /** The picked vessel, and the arc length of the section on it (mm). */
   readonly picked: { readonly id: number; readonly at: number } | null;
 }
@@ -43,7 +45,7 @@ export function contentOf(
     lines: sure.map(lineOf),
     doubtful_lines: doubtful.map(lineOf),
     session: {
-      scan: scanOf(report),
+      scan: report.volume && gridOf(report.volume),
       vessels: sure.map(({ id, color, isHidden, clicks, contours }) => ({
         color,
         hidden: isHidden,
@@ -59,13 +61,9 @@ export function contentOf(
       view: displayState && viewOf(displayState, sure),
       one_millimetre_assumed: document.isOneMillimetre,
       bone_hidden: document.bone_hidden,
+      ...(displayState?.compared && { compared: displayState.compared }),
     },
   };
-}
-
-function scanOf(report: Report): SavedScan | null {
-  const { volume } = report;
-  return volume && { size: volume.size, world_from_index: volume.world_from_index };
 }
 
 function viewOf(displayState: DisplayState, vessels: readonly DocumentVessel[]): SavedView {

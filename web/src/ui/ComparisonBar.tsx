@@ -25,6 +25,8 @@ const LINK_WORDS: Readonly<Record<Link, readonly [words: string, title: string]>
     'Cross-hairs',
     'The cross-hair is at the same place in both scans, on the compared vessel by arc length',
   ],
+  slices: ['Slices', 'The slices of both scans have the same planes and slab'],
+  layouts: ['Layouts', 'Both scans have the same layout'],
   windows: ['Windows', 'Both scans have the same window, if their values have the same unit'],
   looks: ['Looks', 'Both scans have the same look and settings'],
 };

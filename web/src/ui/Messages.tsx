@@ -7,7 +7,7 @@ import { takeNearest } from '../edit/pointing';
 import { saveSession } from '../output/save-actions';
 import { editQueue } from '../state/edit-queue';
 import { message, showFailure } from '../state/message';
-import { closeProblem, problem, progress } from '../state/store';
+import { closeProblem, problem, progress, started } from '../state/store';
 import { isTracing } from '../state/tool';
 import { Mends } from './Mends';
 
@@ -15,6 +15,11 @@ export function Messages() {
   return (
     <div class="messages">
       {progress.value && <Loading />}
+      {editQueue.state.phase === 'stopping' && started.value?.stop === null && (
+        <div class="message" role="status">
+          This work runs to its end: without shared memory it cannot be stopped.
+        </div>
+      )}
       {problem.value && <Problem />}
       {message.value && (
         <div class="message told" role="status" data-testid="told">

@@ -23,7 +23,12 @@ export function StatusBar() {
       )}
       <Notes />
       <span data-testid="window">{windowText()}</span>
-      <span data-testid="device">{deviceText()}</span>
+      <span
+        data-testid="device"
+        title={store.started.value?.isIsolated === false ? 'Its server sends no COOP and COEP headers' : ''}
+      >
+        {deviceText()}
+      </span>
       <span class="frame-time">
         {store.frameTime.value === null ? '' : `${store.frameTime.value.toFixed(0)} ms`}
       </span>

@@ -35,6 +35,7 @@ export function WindowPresets() {
     <label>
       <span class="hidden-words">Window preset</span>
       <select
+        title="From the data, the lumen is light grey and much darker tissue, such as an aneurysm sac, black: 9 shows it"
         value={mine ? OWN + mine.name : preset < 0 ? CUSTOM : String(preset)}
         onChange={(event) => choose(event.currentTarget.value)}
       >

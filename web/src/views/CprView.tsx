@@ -74,6 +74,7 @@ export function CprView() {
         name="straightened"
         words="picked vessel, straightened"
         ask={text ? ask : null}
+        label={`${store.pickedLine()} ${feature}`}
         handlers={handlers}
         empty="The straightened vessel appears here once there is a vessel."
         onSize={setSize}

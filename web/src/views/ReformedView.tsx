@@ -68,6 +68,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
           name="straightened"
           words={reformationTitle()}
           ask={text ? ask : null}
+          label={`${store.pickedLine()} ${mapOf.value}`}
           handlers={handlersOf(kind, [left, top])}
           empty="The reformation appears here once there is a vessel."
           onSize={setSize}

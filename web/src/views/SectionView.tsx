@@ -92,6 +92,7 @@ export function SectionView() {
       words="section across the picked vessel"
       ask={ask}
       handlers={handlers}
+      label={frame ? `${frame.line} ${frame.at}` : ''}
       isLate={isLate}
       empty="The section across the vessel appears here once there is a vessel."
       onSize={setSize}

@@ -26,7 +26,7 @@ import { moveCrossHair } from '../state/cross-hair';
 import { aimAt } from '../state/drawing';
 import { stepLumen } from '../state/lumens';
 import { toggleMaximised } from '../state/panels';
-import { areLinesShown, turnBySteps } from '../state/slices';
+import { areLinesShown, sliceWords, turnBySteps } from '../state/slices';
 import * as store from '../state/store';
 import { isTracing } from '../state/tool';
 import { useAsked } from './asked';
@@ -73,6 +73,7 @@ export function SliceView({ name }: { readonly name: SliceName }) {
       name={name}
       words={`${name} slice`}
       ask={ask}
+      label={sliceWords(name)}
       handlers={sliceHandlers(name, look, setLook, plane, projection)}
       onSize={setSize}
       onArrow={projection && isTracing() ? (by) => stepCrossHair(name, projection, by) : undefined}

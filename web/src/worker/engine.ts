@@ -70,7 +70,7 @@ export class EngineClient implements Asked {
   }
 
   async start(device: string): Promise<Started> {
-    const started = await typed(this.host.start(device));
+    const started = await typed(Promise.race([this.host.start(device), broken(this.worker)]));
     this.stopByte = started.stop && new Uint8Array(started.stop.buffer, started.stop.address, 1);
     return started;
   }
@@ -145,6 +145,16 @@ export class EngineClient implements Asked {
     return this.precedence.first(typed(answer));
   }
 }
+
+/** Fails if the worker does not load, for example because its file is missing or blocked. */
+const broken = (worker: Worker): Promise<never> =>
+  new Promise((_, reject) => {
+    const fail = () =>
+      reject(
+        new Failure('unexpected', 'the engine', 'a worker that did not load', 'its file', 'reload the page'),
+      );
+    worker.addEventListener('error', fail, { once: true });
+  });
 
 async function typed<T>(answer: Promise<T>): Promise<T> {
   try {

@@ -1,6 +1,6 @@
 /** The interface of the worker for the page. Errors are passed as the text of `Failure`. */
 import { transfer } from 'comlink';
-import { CRASH, Failure } from '../core/failure';
+import { CRASH, crashed, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
 import type {
   Attachments,
@@ -16,6 +16,7 @@ import type {
   View,
 } from '../core/messages';
 import {
+  canGrow,
   Engine,
   loadJudge,
   loadModule,
@@ -34,6 +35,9 @@ import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles, fitsAsMask } from './masks';
 import { type LoadContext, Replacing } from './replacing';
 
+/** Tracing makes a copy of the voxels as 32-bit numbers. */
+const BYTES_PER_VOXEL = 4;
+
 const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
 
 interface Loaded {
@@ -47,6 +51,8 @@ export class EngineHost {
   private cancelled = new AbortController();
   /** The crash of the module. Afterwards all requests fail, because its memory may be corrupt. */
   private crash: Error | null = null;
+  /** What tracing the open volume may need besides it (bytes). */
+  private needed = 0;
 
   /** Answers a request. Requests that need no study are answered at once, ahead of the queue. */
   ask(name: Question, message: unknown, files: Attachments, onProgress: OnProgress | null): unknown {
@@ -184,8 +190,10 @@ export class EngineHost {
         const steps = new Steps(onProgress, signal);
         const loaded = await work({ study, loadJudge, loadVolumes, loadPackedVolumes, kindOf, steps });
         const report = this.report();
-        const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
-        const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
+        const voxels = report.volume?.size.reduce((product, side) => product * side, 1) ?? 0;
+        this.needed = BYTES_PER_VOXEL * voxels;
+        const ofVolume = (replacing.hasBegun && report.volume?.notes) || [];
+        const every = [...loaded.notes, ...ofVolume, wish.every_second ? COARSER : null];
         const notes = [...new Set(every.filter((note) => note != null))];
         return { ...loaded, notes, report, doubt: replacing.doubt };
       } catch (error) {
@@ -234,11 +242,12 @@ export class EngineHost {
   private run<T>(work: () => T | Promise<T>): Promise<T> {
     return this.queue.run(work).catch((error: unknown) => {
       const failure = Failure.of(error);
-      const asText = new Error(failure.text);
-      if (failure.kind === CRASH) {
-        this.crash = asText;
+      if (failure.kind !== CRASH || this.crash) {
+        throw new Error(failure.text);
       }
-      throw asText;
+      const memory = memorySize();
+      this.crash = new Error((canGrow(this.needed) ? failure : crashed('', memory)).text);
+      throw this.crash;
     });
   }
 }

@@ -5,6 +5,7 @@ pub mod accumulate;
 pub mod arc_length;
 #[doc(hidden)]
 pub mod blocks;
+pub mod body;
 pub(crate) mod candidates;
 #[doc(hidden)]
 pub mod cell_walk;

@@ -33,7 +33,7 @@ fn log2_of_one_minus(a: f32) -> f32 {
 
 /// 1 − 2^y for y ≤ 0, to a few units in the last place, also for small y.
 #[inline(always)]
-fn one_minus_power_of_two(y: f32) -> f32 {
+pub(crate) fn one_minus_power_of_two(y: f32) -> f32 {
     // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). Adding 1.5·2²³ rounds y to the integer n.
     const ONES: f32 = 12_582_912.0;
     let y = larger(y, -125.0);

@@ -9,6 +9,7 @@ use crate::math::context_parameters::StartParameters;
 use crate::math::ray::{NONE, WHOLE};
 use crate::scene::SharedVolume;
 use crate::settings::{Settings, SilhouetteRule, SlabMode};
+use crate::stages::body::{Outline, body};
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
 use crate::stages::context::{SurfaceImages, Surroundings, context, starts};
 use crate::stages::depth::{CutSurface, DepthImages, Sheet, depth};
@@ -16,6 +17,7 @@ use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
 use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
+use crate::stages::occlusion::{OcclusionParameters, occlusion};
 use crate::stages::rim::{RimColors, RimParameters, rim};
 use crate::stages::silhouette::{SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
@@ -67,12 +69,18 @@ impl CutSurfacePass<'_> {
             Stage::DepthFilter => self.depth_filter(images),
             Stage::Focus => self.focus(images),
             Stage::Rim => self.rim(images),
+            Stage::Occlusion => {
+                let Images { unfiltered_depth, depth, focus, .. } = images;
+                let depth = if depth.is_empty() { unfiltered_depth } else { depth };
+                occlusion(work, &OcclusionParameters::new(self.surface.camera()), depth, focus)
+            }
             Stage::Levels
             | Stage::Projection
             | Stage::Surface
             | Stage::Silhouette
             | Stage::Blocks
             | Stage::Context
+            | Stage::Body
             | Stage::Composite => Ok(()),
         }
     }
@@ -81,7 +89,7 @@ impl CutSurfacePass<'_> {
         let Some(parameters) = FocusParameters::new(self.settings, self.surface.camera()) else {
             return Ok(());
         };
-        images.focus = vec![[0.0; 2]; self.work.pixels()];
+        images.focus = vec![[0.0; 4]; self.work.pixels()];
         // The focus image needs exact shares in every pixel; silhouettes need them only near depth jumps.
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
@@ -136,6 +144,7 @@ impl LookPass<'_> {
             Stage::Silhouette => self.silhouette(images),
             Stage::Blocks => self.blocks(images),
             Stage::Context => self.context(images),
+            Stage::Body => self.body(images),
             Stage::Composite => self.composite(images),
             Stage::Levels
             | Stage::Projection
@@ -144,7 +153,8 @@ impl LookPass<'_> {
             | Stage::Leap
             | Stage::DepthFilter
             | Stage::Focus
-            | Stage::Rim => Ok(()),
+            | Stage::Rim
+            | Stage::Occlusion => Ok(()),
         }
     }
 
@@ -206,6 +216,16 @@ impl LookPass<'_> {
         images.gathered = vec![[0.0; 4]; self.work.pixels()];
         let surroundings = Surroundings { camera, volume, blocks };
         context(&self.work, &surroundings, self.settings, chosen, &images.start, &mut images.gathered)
+    }
+
+    fn body(&self, images: &mut Images) -> Result<()> {
+        let (Some(camera), Some(found)) = (self.geometry.camera(), self.around.body(self.work.stop)?) else {
+            return Ok(());
+        };
+        if images.gathered.is_empty() {
+            return Ok(());
+        }
+        body(&self.work, &Outline::new(found, camera), &images.start, &mut images.gathered)
     }
 
     fn composite(&self, images: &mut Images) -> Result<()> {
@@ -286,7 +306,7 @@ impl SurfaceDetails {
         let depth = if depth.is_empty() { unfiltered_depth } else { depth };
         let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap, value: &[] };
         let mut strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
-        for (strength, [surface, line]) in strength.iter_mut().zip(&focus) {
+        for (strength, [surface, line, ..]) in strength.iter_mut().zip(&focus) {
             *strength *= surface * line;
         }
         Ok(Self { sheet, leap, strength })

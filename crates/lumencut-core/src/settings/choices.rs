@@ -63,6 +63,8 @@ impl ContextChoices {
             shading: self.context_shading,
             from: self.context_from.unwrap_or(mode.default_from()),
             strength: self.context_strength,
+            halo: self.context_halo,
+            body: self.context_body,
             preview: self.context_preview,
         }
     }
@@ -107,6 +109,8 @@ impl From<&Context> for ContextChoices {
             context_shading: context.shading,
             context_from: Some(context.from),
             context_strength: context.strength,
+            context_halo: context.halo,
+            context_body: context.body,
             context_preview: context.preview,
         }
     }

@@ -109,6 +109,10 @@ pub struct Context {
     pub from: ContextFrom,
     /// Factor on the colours of the context in the picture, 0 to 1.
     pub strength: f64,
+    /// How much a halo around the focus darkens the context, 0 to 1.
+    pub halo: f64,
+    /// Whether the outline of the body is shown behind the context.
+    pub body: bool,
     /// Whether only one ray is traced for each square of four pixels.
     pub preview: bool,
 }

@@ -10,6 +10,8 @@ use crate::named::Named;
 const NOTHING_OF_THE_CUT: Focus = Focus { margin: -1e6, fade: 0.0 };
 /// Thickness of the look with a thick slab (mm).
 const THICK_SLAB_MM: f64 = 10.0;
+/// How much the look with a focus darkens the context around the cut.
+const HALO: f64 = 0.6;
 
 /// Several settings under one name; all others have their defaults.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +56,9 @@ pub const LOOKS: [Look; 5] = [
 ];
 
 fn focus() -> Vec<(&'static str, Value)> {
-    shaded(Focus::default())
+    let mut chosen = shaded(Focus::default());
+    chosen.extend([("context_halo", Value::Number(HALO)), ("context_body", Value::Flag(true))]);
+    chosen
 }
 
 fn body() -> Vec<(&'static str, Value)> {

@@ -108,6 +108,9 @@ settings! {
         /// vessels they only mark borders of zones.
         silhouette_reach: Option<f64> = Some(10.0), range(0.0, 1e6, "mm");
 
+        /// Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
+        occlusion: f64 = 0.0, range(0.0, 1.0, "of its brightness");
+
         /// Colour of the silhouettes.
         ///
         /// Red, green and blue.
@@ -195,6 +198,12 @@ settings! {
 
         /// Brightness of the context: factor of its colours (number, 0 to 1).
         context_strength: f64 = 1.0, range(0.0, 1.0, "of its brightness");
+
+        /// Darken the context around a `focus` (number, 0 to 1).
+        context_halo: f64 = 0.0, range(0.0, 1.0, "of its brightness");
+
+        /// Outline the body if the scan shows air around it; not in previews.
+        context_body: bool = false;
 
         /// Trace one ray per 6 × 6 pixels: faster and coarser.
         context_preview: bool = false;

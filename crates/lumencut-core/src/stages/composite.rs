@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
 
-use super::focus::Shares;
+use super::focus::{ALL_SHOWN, Shares};
 use super::{Image, Work};
 use crate::error::Result;
 use crate::math::lanes::{Kernel, dispatch, larger, smaller};
@@ -55,7 +55,7 @@ pub fn composite(
     let chunk = work.tile_row();
     // Arrays that replace missing layers.
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
-    let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
+    let whole = vec![ALL_SHOWN; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
     let rows = image.par_chunks_mut(chunk).zip(layers.value.par_chunks(chunk));
     rows.enumerate().try_for_each(|(row, (image, value))| {
@@ -102,13 +102,14 @@ impl CompositeParameters {
     /// The surface and its silhouettes, each by its share, over context and background.
     #[inline(always)]
     fn pixel(&self, value: f32, strength: f32, shares: Shares, context: [f32; 4]) -> [f32; 4] {
-        self.painted(value, [self.grey.at(shown(value)); 3], (strength, shares), context)
+        let grey = self.grey.at(shown(value)) * (1.0 - shares[3]);
+        self.painted(value, [grey; 3], (strength, shares), context)
     }
 
     /// As [`Self::pixel`], with the rim on the grey surface, below the silhouettes.
     #[inline(always)]
     fn rimmed(&self, value: f32, rim: [u8; 4], line: (f32, Shares), context: [f32; 4]) -> [f32; 4] {
-        let grey = self.grey.at(shown(value));
+        let grey = self.grey.at(shown(value)) * (1.0 - line.1[3]);
         let [dark, bright] = RIM_FADES;
         let x = smaller(larger((grey - dark) / (bright - dark), 0.0), 1.0);
         let share = f32::from(rim[3]) / 255.0 * (1.0 - x * x * (3.0 - 2.0 * x));
@@ -121,7 +122,7 @@ impl CompositeParameters {
         &self,
         value: f32,
         surface: [f32; 3],
-        (strength, [share, lines]): (f32, Shares),
+        (strength, [share, lines, around, _]): (f32, Shares),
         context: [f32; 4],
     ) -> [f32; 4] {
         let nothing = value.is_nan();
@@ -132,7 +133,8 @@ impl CompositeParameters {
         let mut pixel = [0.0; 4];
         for c in 0..3 {
             let color = surface[c] + (self.line[c] - surface[c]) * strength;
-            pixel[c] = color * opacity + (context[c] * self.context + self.background[c] * rest) * through;
+            let behind = context[c] * self.context * around;
+            pixel[c] = color * opacity + (behind + self.background[c] * rest) * through;
         }
         pixel[3] = opacity + (context[3] + rest) * through;
         pixel

@@ -27,7 +27,7 @@ struct CompositeParameters {
 @group(0) @binding(3) var<storage, read> parameters: CompositeParameters;
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
-@group(0) @binding(6) var<storage, read> focus: array<vec2f>;
+@group(0) @binding(6) var<storage, read> focus: array<vec4f>;
 // Colour and share, a byte each, red lowest.
 @group(0) @binding(7) var<storage, read> rim: array<u32>;
 
@@ -55,20 +55,20 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     let place = place_of(thread.xy);
+    var shares = vec4f(1.0, 1.0, 1.0, 0.0);
+    if HAS_FOCUS {
+        shares = focus[place];
+    }
     var behind = vec4f(0.0);
     if HAS_CONTEXT {
-        behind = context[place] * vec4f(vec3f(parameters.context), 1.0);
+        behind = context[place] * vec4f(vec3f(parameters.context * shares.z), 1.0);
     }
     let rest = (1.0 - behind.w) * parameters.background.w;
     let back = vec4f(behind.xyz + parameters.background.xyz * rest, behind.w + rest);
     var pixel = back;
     // If there is no value, the surface is not shown.
     if !ALONE && value[place] < HUGE {
-        let grey = ramp_at(parameters.grey, value[place]);
-        var shares = vec2f(1.0);
-        if HAS_FOCUS {
-            shares = focus[place];
-        }
+        let grey = ramp_at(parameters.grey, value[place]) * (1.0 - shares.w);
         let opacity = ramp_at(parameters.opacity, value[place]) * shares.x;
         var color = vec3f(grey);
         if HAS_RIM {

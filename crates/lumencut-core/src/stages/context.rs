@@ -49,7 +49,7 @@ pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages
             work.expect_whole(Image::Focus, focus);
             places
                 .zip(focus)
-                .for_each(|((start, (value, depth)), [share, _])| *start = start_of(*value, *depth, *share));
+                .for_each(|((start, (value, depth)), [share, ..])| *start = start_of(*value, *depth, *share));
         }
     }
 }

@@ -26,7 +26,7 @@ const IN_FRONT: f32 = NONE / 2.0;
 @group(0) @binding(2) var<storage, read> value: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read_write> start_image: array<f32>;
-@group(0) @binding(5) var<storage, read> focus: array<vec2f>;
+@group(0) @binding(5) var<storage, read> focus: array<vec4f>;
 @group(0) @binding(5) var<storage, read> start: array<f32>;
 @group(0) @binding(6) var<storage, read_write> context_image: array<vec4f>;
 

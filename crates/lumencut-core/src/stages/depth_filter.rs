@@ -60,15 +60,21 @@ pub fn depth_filter(
         work.expect_whole(Image::Vessel, vessel);
     }
     work.expect_whole(Image::Depth, smoothed);
-    let (weights, width) = (parameters.weights, work.size[0]);
+    let Some(vessel) = vessel else { return gaussian(work, &parameters.weights, image, smoothed) };
+    let width = work.size[0];
     smoothed.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
         work.begin(smoothed.len())?;
-        let first = row * ROWS;
-        if let Some(vessel) = vessel {
-            dispatch(work.isa, ZoneRows { parameters, image, vessel, width, first, smoothed });
-        } else {
-            dispatch(work.isa, FilterRows { image, width, first, weights, smoothed });
-        }
+        dispatch(work.isa, ZoneRows { parameters, image, vessel, width, first: row * ROWS, smoothed });
+        Ok(())
+    })
+}
+
+/// Writes the image smoothed by a Gaussian with these weights, from the middle outwards; border pixels are repeated.
+pub(super) fn gaussian(work: &Work, weights: &[f32], image: &[f32], smoothed: &mut [f32]) -> Result<()> {
+    let width = work.size[0];
+    smoothed.par_chunks_mut(work.tile_row()).enumerate().try_for_each(|(row, smoothed)| {
+        work.begin(smoothed.len())?;
+        dispatch(work.isa, FilterRows { image, width, first: row * ROWS, weights, smoothed });
         Ok(())
     })
 }
@@ -77,7 +83,7 @@ struct FilterRows<'a> {
     image: &'a [f32],
     width: usize,
     first: usize,
-    weights: [f32; HALF_WIDTH + 1],
+    weights: &'a [f32],
     smoothed: &'a mut [f32],
 }
 
@@ -89,19 +95,20 @@ impl Kernel for FilterRows<'_> {
         let (width, weights) = (self.width, self.weights);
         let height = self.image.len() / width;
         let row = |j: usize| &self.image[j * width..(j + 1) * width];
-        let mut padded = vec![0.0; width + 2 * HALF_WIDTH];
+        let half = weights.len() - 1;
+        let mut padded = vec![0.0; width + 2 * half];
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
-            let middle = &mut padded[HALF_WIDTH..HALF_WIDTH + width];
+            let middle = &mut padded[half..half + width];
             set(middle, weights[0], row(j));
-            for n in 1..=HALF_WIDTH {
+            for n in 1..=half {
                 add(middle, weights[n], row(j.saturating_sub(n)), row((j + n).min(height - 1)));
             }
             let (first, last) = (middle[0], middle[width - 1]);
-            padded[..HALF_WIDTH].fill(first);
-            padded[HALF_WIDTH + width..].fill(last);
-            set(smoothed, weights[0], &padded[HALF_WIDTH..]);
-            for n in 1..=HALF_WIDTH {
-                add(smoothed, weights[n], &padded[HALF_WIDTH - n..], &padded[HALF_WIDTH + n..]);
+            padded[..half].fill(first);
+            padded[half + width..].fill(last);
+            set(smoothed, weights[0], &padded[half..]);
+            for n in 1..=half {
+                add(smoothed, weights[n], &padded[half - n..], &padded[half + n..]);
             }
         }
     }

@@ -4,6 +4,8 @@
 #[doc(hidden)]
 pub mod along_rays;
 #[doc(hidden)]
+pub mod body;
+#[doc(hidden)]
 pub mod composite;
 #[doc(hidden)]
 pub mod context;
@@ -19,6 +21,8 @@ pub mod focus;
 pub mod leap;
 #[doc(hidden)]
 pub mod levels;
+#[doc(hidden)]
+pub mod occlusion;
 #[doc(hidden)]
 pub mod rim;
 #[doc(hidden)]

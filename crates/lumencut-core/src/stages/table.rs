@@ -25,7 +25,7 @@ pub enum Image {
     Foot,
     /// Bits that mark jumps of the cut surface's depth, u32 (`stages::leap`).
     Leap,
-    /// Shares of the cut surface and its silhouettes that are shown, 0 to 1, two f32.
+    /// Shares of the cut surface and its silhouettes that are shown, and factors on colours, 0 to 1, four f32 (`stages::focus`).
     Focus,
     /// The rim around the vessels: its colour and its share, four bytes (`stages::rim`).
     Rim,
@@ -149,6 +149,8 @@ pub enum Stage {
     DepthFilter,
     /// Computes how much of the cut surface is shown around the vessels.
     Focus,
+    /// Computes how much the cut surface is darkened where it lies deeper than its surroundings.
+    Occlusion,
     /// Colours a rim around the vessels by values along them.
     Rim,
     /// Samples the volume at the cut surface.
@@ -159,13 +161,15 @@ pub enum Stage {
     Blocks,
     /// Follows rays through the volume.
     Context,
+    /// Puts the outline of the body behind the context.
+    Body,
     /// Composes the picture from all layers.
     Composite,
 }
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
@@ -173,11 +177,13 @@ impl Stage {
         Self::Leap,
         Self::DepthFilter,
         Self::Focus,
+        Self::Occlusion,
         Self::Rim,
         Self::Surface,
         Self::Silhouette,
         Self::Blocks,
         Self::Context,
+        Self::Body,
         Self::Composite,
     ];
 
@@ -191,11 +197,13 @@ impl Stage {
             Self::Leap => "leap",
             Self::DepthFilter => "depth_filter",
             Self::Focus => "focus",
+            Self::Occlusion => "occlusion",
             Self::Rim => "rim",
             Self::Surface => "surface",
             Self::Silhouette => "silhouette",
             Self::Blocks => "blocks",
             Self::Context => "context",
+            Self::Body => "body",
             Self::Composite => "composite",
         }
     }
@@ -204,10 +212,10 @@ impl Stage {
     pub const fn cost(self) -> usize {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => 0,
-            Self::Distance => 8,
+            Self::Distance | Self::Occlusion => 8,
             Self::Depth => 12,
             Self::Leap | Self::Focus | Self::Surface => 4,
-            Self::DepthFilter | Self::Silhouette | Self::Rim => 2,
+            Self::DepthFilter | Self::Silhouette | Self::Body | Self::Rim => 2,
             Self::Context => 14,
             Self::Composite => 10,
         }
@@ -222,9 +230,11 @@ impl Stage {
             Self::Depth => &[Image::Distance],
             Self::Leap => &[Image::UnfilteredDepth, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
+            Self::Occlusion => &[Image::UnfilteredDepth, Image::Depth, Image::Focus],
             Self::Surface => &[Image::Depth],
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Focus, Image::Value],
+            Self::Body => &[Image::Start, Image::Gathered],
             Self::Composite => &[Image::Focus, Image::Rim, Image::Value, Image::Strength, Image::Gathered],
         }
     }
@@ -237,11 +247,12 @@ impl Stage {
             Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend, Image::Foot],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
-            Self::Focus => &[Image::Focus],
+            Self::Focus | Self::Occlusion => &[Image::Focus],
             Self::Rim => &[Image::Rim],
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
             Self::Context => &[Image::Start, Image::Gathered],
+            Self::Body => &[Image::Gathered],
             Self::Composite => &[Image::Context, Image::Picture],
         }
     }
@@ -259,7 +270,8 @@ impl Stage {
             (Self::Depth, true),
             (Self::Leap, has_leaps),
             (Self::DepthFilter, settings.depth_filter),
-            (Self::Focus, has_focus || (has_reach && draws)),
+            (Self::Focus, has_focus || ((has_reach || settings.occlusion > 0.0) && draws)),
+            (Self::Occlusion, settings.occlusion > 0.0 && draws),
             (Self::Rim, Self::has_foot(settings, wanted)),
         ];
         needed(&stages)
@@ -269,7 +281,13 @@ impl Stage {
     pub const fn is_of_cut_surface(self) -> bool {
         matches!(
             self,
-            Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus | Self::Rim
+            Self::Distance
+                | Self::Depth
+                | Self::Leap
+                | Self::DepthFilter
+                | Self::Focus
+                | Self::Occlusion
+                | Self::Rim
         )
     }
 
@@ -313,6 +331,7 @@ impl Stage {
             (Self::Silhouette, has_silhouettes),
             (Self::Blocks, has_context),
             (Self::Context, has_context),
+            (Self::Body, has_context && settings.context.as_ref().is_some_and(|c| c.body && !c.preview)),
             (Self::Composite, has_picture || has_context),
         ];
         needed(&stages)

@@ -35,7 +35,7 @@ impl Scene {
         };
         let context =
             (0..pixels).map(|_| color(&mut random)).map(|[[r, a], [g, _], [b, _]]| [r, g, b, a]).collect();
-        let focus = (0..pixels).map(|_| [0; 2].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
+        let focus = (0..pixels).map(|_| [0; 4].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
         let byte = |random: &mut Random| random.between(-100.0, 255.0).max(0.0) as u8;
         let rim = (0..pixels).map(|_| [0; 4].map(|_| byte(&mut random))).collect();
         Self { value, strength, focus, rim, context }

@@ -13,7 +13,7 @@ use lumencut_core::math::{
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
-use lumencut_core::stages::{composite, context, depth, leap, silhouette};
+use lumencut_core::stages::{body, composite, context, depth, focus, leap, occlusion, silhouette};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
@@ -49,7 +49,7 @@ impl Numbers for f64 {
     }
 }
 
-impl Numbers for [f32; 2] {
+impl<const N: usize> Numbers for [f32; N] {
     fn numbers(&self) -> Vec<f64> {
         self.iter().flat_map(Numbers::numbers).collect()
     }
@@ -90,10 +90,13 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
         "math/walls": walls::MAX_LEAN;
+        "stages/body": body::COLOR, body::EVERYWHERE, body::GLOW, body::LINE, body::GLOW_MM, consts::LOG2_E, ray::NONE;
         "stages/composite": composite::RIM_FADES;
         "stages/context": context::IN_FRONT;
         "stages/depth": depth::CHOSEN_GAP;
+        "stages/focus": focus::HALO_MM, focus::SHADE_FADE_MM, consts::LOG2_E;
         "stages/leap": leap::SMALLEST_LEAP;
+        "stages/occlusion": occlusion::FIRST_MM, occlusion::FULL_MM, occlusion::GAIN;
         "stages/silhouette": silhouette::ZONE_BORDER, silhouette::STEEPEST;
         "math/cell_walk": cell_walk::NO_MEETING, cell_walk::ALONG_PLANE;
         "math/cubic": cubic::TINY;

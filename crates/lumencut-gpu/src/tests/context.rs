@@ -164,7 +164,7 @@ fn around_a_focus_rays_start_where_those_of_the_cpu_do() {
     let mut stage = ContextStage::new(device);
     for camera in views() {
         let placed = Placed::new(device, &volume, &camera);
-        let share = |n: usize| [(n % 13) as f32 / 12.0, 1.0];
+        let share = |n: usize| [(n % 13) as f32 / 12.0, 1.0, 1.0, 0.0];
         let focus = (0..placed.pixels()).map(share).collect();
         let surface = CutSurface { focus: Some(focus), ..cut_surface(&camera) };
         for from in [ContextFrom::Cut, ContextFrom::Whole] {

@@ -3,7 +3,7 @@
 use lumencut_core::camera::Camera;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{LeveledTree, Scene};
-use lumencut_core::settings::{Focus, Settings};
+use lumencut_core::settings::{Context, Focus, Settings};
 use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::VesselTree;
@@ -39,7 +39,7 @@ fn both(
     stages.look(device, &on_device, &request);
     stages.project(&mut recording, &view, &on_device, settings.levels);
     stages.focus(&mut recording, &view, &on_device, FocusParameters::new(settings, camera).unwrap(), &images);
-    recording.read(&images.focus, 8 * images.pixels() as u64);
+    recording.read(&images.focus, 16 * images.pixels() as u64);
     [finish(recording).numbers(0), expected.into_flattened()]
 }
 
@@ -57,7 +57,8 @@ fn shares_are_those_of_the_cpu() {
             (1e6, 6.0, Some(8.0)),
         ] {
             let focus = Some(Focus { margin, fade });
-            let settings = Settings { focus, silhouette_reach, ..Settings::default() };
+            let context = Some(Context { halo: 0.6, ..Context::default() });
+            let settings = Settings { focus, silhouette_reach, context, ..Settings::default() };
             for size in SIZES {
                 let camera = view([0.2, 1.0, -0.4], size, 0.6);
                 let [found, expected] = both(&mut gpu, &tree, &camera, &settings);

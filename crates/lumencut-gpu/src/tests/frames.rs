@@ -75,9 +75,19 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
         ("a rim", with(|s| s.rim = Some(RimValue::Diameter))),
         ("a rim of the paper's levels", Settings { rim: Some(RimValue::Diameter), ..Settings::paper() }),
+        ("occlusion", with(|s| s.occlusion = 0.6)),
+        ("occlusion of the unfiltered depth", with(|s| (s.occlusion, s.depth_filter) = (1.0, false))),
+        ("a halo and the body around the focus", with(|s| halo_around(s, &[]))),
+        ("a halo around a chosen vessel", with(|s| halo_around(s, &[0]))),
         ("opacity", with(|s| s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 }))),
         ("no silhouettes, no context", with(|s| (s.silhouettes, s.context) = (false, None))),
     ]
+}
+
+fn halo_around(settings: &mut Settings, chosen: &[usize]) {
+    settings.focus = Some(Focus { margin: 0.5, fade: 3.0 });
+    settings.focus_vessels = chosen.to_vec();
+    settings.context = Some(Context { halo: 0.6, body: true, ..Context::default() });
 }
 
 /// A wide focus in a dimmed context, whose rays start as `from` states.
@@ -161,6 +171,8 @@ fn everything() -> Settings {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
         s.rim = Some(RimValue::Diameter);
+        s.occlusion = 0.6;
+        s.context = Some(Context { body: true, ..Context::default() });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
     })
 }

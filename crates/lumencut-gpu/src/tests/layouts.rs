@@ -7,10 +7,12 @@ use bytemuck::Zeroable;
 use lumencut_core::math::context_parameters::{ContextParameters, RiseParameters};
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::shaders::SHADERS;
+use lumencut_core::stages::body::BodyParameters;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
 use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::leap::LeapParameters;
+use lumencut_core::stages::occlusion::{Blur, OcclusionParameters};
 use lumencut_core::stages::rim::{RimParameters, RimStrip};
 use lumencut_core::stages::silhouette::SilhouetteParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
@@ -90,7 +92,13 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             Projected { point, radius, edge, before, inverse_length, arc_length, stands, padding }
         ),
         host!("math/levels", Span { first, end, level, first_chosen, end_chosen }),
-        host!("stages/focus", FocusParameters { margin, per_fade, near, far, others, padding }),
+        host!(
+            "stages/focus",
+            FocusParameters { margin, per_fade, near, far, others, halo, wall, shade, halo_end, halo_rest }
+        ),
+        host!("stages/body", BodyParameters { size, first, per_pixel, per_line, padding }),
+        host!("stages/occlusion", OcclusionParameters { blurs }),
+        host!("stages/occlusion", Blur { weights, side, reach, padding }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
         host!("stages/rim", RimParameters { near, far, per_side, most }),
         host!("stages/rim", RimStrip { first, last, per_mm }),

@@ -64,6 +64,7 @@ fn sample() -> SessionFile {
         view: Some(view),
         one_millimetre_assumed: false,
         bone_hidden: false,
+        compared: None,
     };
     SessionFile { lines: vec![line], session }
 }
@@ -106,6 +107,21 @@ fn hidden_bone_comes_back_and_is_of_format_2() {
     assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
     let early = text.replace("\"format\":2", "\"format\":1");
     assert!(refused(&early).contains("found hidden bone in version 1; expected version 2"));
+}
+
+#[test]
+fn a_compared_scan_comes_back_and_is_of_format_2() {
+    let mut file = sample();
+    file.session.compared = Some(ComparedScan {
+        scan: Scan { size: [5, 6, 7], world_from_index: [[0.5; 4]; 4] },
+        is_earlier: true,
+        pairs_mm: vec![[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]],
+    });
+    let text = written(&file);
+    file.session.format = 2;
+    assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
+    let early = text.replace("\"format\":2", "\"format\":1");
+    assert!(refused(&early).contains("found a compared scan in version 1; expected version 2"));
 }
 
 #[test]

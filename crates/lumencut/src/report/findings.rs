@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::markup::paragraph;
 use super::method_text::Stated;
 use super::{Lengths, Shown, VesselPage};
-use crate::measure_words::{of_c_arm, of_doubts, of_flags, of_flap_stretch, of_outer_stretch};
+use crate::measure_words::{of_c_arm, of_flags, of_flap_stretch, of_outer_stretch};
 use crate::narrower::narrower;
 use crate::not_measured::not_measured;
 use crate::not_suggested::not_suggested;
@@ -36,7 +36,7 @@ pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) 
     let graded = match measured.grade {
         Some(grade) => {
             let headline = sentence(Kind::Finding, &grade.headline(measured.profile));
-            let doubts = grade.stenosis().map(|stenosis| of_doubts(&stenosis.doubts)).unwrap_or_default();
+            let doubts = grade.doubts(measured.profile);
             let narrower = grade.at().and_then(|at| narrower(measured.profile, Some(at)));
             let doubts = doubts.iter().chain(&narrower).map(|words| sentence(Kind::Doubt, words));
             let group =

@@ -17,7 +17,7 @@ pub(super) const EXPLAINED: &str = "All diameters are of the lumen: thrombus and
     surroundings. A stenosis is compared with the median diameter within 1.5 mm of each reference. Suggested places are not \
     findings: a reader must check them. A cyan contour counts for the narrowest and the widest place; an orange one is excluded \
     by its flags; a dashed green one was drawn by hand; a dashed pink one is the outer wall around thrombus or plaque. At a \
-    flap, a green one is the lumen of the line and a violet one the other lumen.";
+    flap, a green one is the lumen of the line and a violet one the other lumen next to it.";
 
 pub(super) const UNITLESS: &str = "The scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.";
 

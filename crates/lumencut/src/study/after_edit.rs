@@ -69,7 +69,7 @@ impl Study {
 fn listed(document: &Document) -> Vec<ListedLine> {
     let of = |vessel: &DocumentVessel| ListedLine {
         line: vessel.line,
-        name: vessel.name.clone(),
+        name: vessel.called(),
         hidden: vessel.is_hidden,
         contours: vessel.contours.clone(),
     };

@@ -12,6 +12,7 @@ use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
 use serde::Serialize;
 
+use crate::cut_off_values::note_of;
 use crate::defaults::pixel_side;
 use crate::doubted_scan::doubted_grid;
 use crate::populations::VoxelSample;
@@ -100,7 +101,8 @@ pub(crate) struct VolumeReport {
     pub(crate) pixel_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
-    pub(crate) doubt: Option<String>,
+    /// Notes for the user on its size and its values.
+    pub(crate) notes: Vec<String>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -124,6 +126,9 @@ pub(crate) struct Windows {
     is_hounsfield: bool,
     /// Whether the stent window is useful: the values seem to be Hounsfield units, and some are as bright as metal.
     may_hold_stents: bool,
+    /// The note that dark values were cut off, for the report.
+    #[serde(skip)]
+    cut_off: Option<String>,
 }
 
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -231,6 +236,7 @@ impl Content {
             presets: presets.to_vec(),
             is_hounsfield: unit.is_hounsfield,
             may_hold_stents: unit.is_hounsfield || unit.has_metal,
+            cut_off: note_of(sampled),
         }))
     }
 
@@ -247,9 +253,13 @@ impl Content {
     }
 
     pub(crate) fn report(&self) -> Result<Report> {
-        let volume = self.held.as_ref().map(VolumeReport::of).transpose()?;
+        let mut volume = self.held.as_ref().map(VolumeReport::of).transpose()?;
         let vessels = self.named.as_ref().map(VesselReport::of_all);
-        Ok(Report { volume, vessels, windows: self.windows()?, can_reorder: self.can_reorder })
+        let windows = self.windows()?;
+        if let (Some(volume), Some(windows)) = (&mut volume, &windows) {
+            volume.notes.extend(windows.cut_off.clone());
+        }
+        Ok(Report { volume, vessels, windows, can_reorder: self.can_reorder })
     }
 }
 
@@ -263,7 +273,7 @@ impl VolumeReport {
             smallest_side: volume.smallest_side(),
             pixel_side: pixel_side(volume.smallest_side()),
             scan: held.scan.words(),
-            doubt: doubted_grid(held.size, held.world_from_index),
+            notes: doubted_grid(held.size, held.world_from_index).into_iter().collect(),
         })
     }
 }

@@ -85,8 +85,8 @@ pub(crate) struct ProfileMessage {
     outer: Vec<Option<String>>,
     /// The longest stretch with a flap, in one sentence.
     flap_stretch: Option<String>,
-    /// Areas of both lumens behind a flap, in words.
-    lumens: Vec<Option<String>>,
+    /// Areas of the line's lumen, of the other one behind a flap, and of both, in words.
+    lumens: Vec<Option<[String; 3]>>,
 }
 
 impl From<&Profile> for ProfileMessage {

@@ -17,6 +17,8 @@ type Vector = [f64; 3];
 /// Scans that share at least this part of the smaller one are taken to have the same coordinates.
 const SHARED: f64 = 0.5;
 
+const UNNAMED: [&str; 2] = ["earlier scan", "later scan"];
+
 /// A rigid motion (mm, LPS): a point times `rotation`, plus `shift`.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Motion"))]
@@ -92,6 +94,8 @@ pub(crate) struct ScansMessage {
     identities: [ScanIdentity; 2],
     /// Whether scans of two patients are compared.
     other_patient: bool,
+    /// Whether scans and patients are named.
+    is_named: bool,
     /// Pictures of the earlier and the later scan for the report (PNG in base64); may be empty.
     pictures: Vec<String>,
 }
@@ -138,11 +142,12 @@ impl ScansMessage {
     }
 
     fn compared<T>(&self, work: impl FnOnce(&Compared) -> Result<T>) -> Result<T> {
-        let doubts = doubts(&self.identities, self.other_patient)?;
+        let doubts = doubts(&self.identities, self.other_patient, self.is_named)?;
         let profile = |which: usize| ProfileRecord::read(&self.records[which])?.profile();
         let [(earlier, _), (later, _)] = [profile(0)?, profile(1)?];
         let comparison = compare(&earlier, &later, &self.pairs)?;
-        let (vessel, scans) = (self.vessel.clone(), self.scans.clone());
+        let vessel = self.vessel.clone();
+        let scans = if self.is_named { self.scans.clone() } else { UNNAMED.map(str::to_owned) };
         let pictures = self.pictures.clone();
         work(&Compared { vessel, scans, comparison: &comparison, doubts, pictures })
     }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::tube::tube;
 use lumencut_vessels::measure::section::flags::{AT_LIMIT, BRANCH, CALCIUM, METAL, NO_EDGE};
 
 fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
@@ -93,4 +94,19 @@ fn flags_and_sources_are_words() {
     assert!(of_flags(0).is_empty());
     assert_eq!(of_source(&Source::Assumed { from: "two sides".to_owned() }), "assumed: two sides");
     assert_eq!(of_source(&Source::Given), "given");
+}
+
+#[test]
+fn at_a_flap_the_words_state_which_lumen_is_measured() {
+    let mut profile = tube();
+    assert_eq!(of_lumens_at(&profile, 40), None);
+    profile.flap[40] = Flap::Seen;
+    profile.area_own_lumen[40] = [120.0, 3.0];
+    profile.area_other_lumen[40] = [300.0, 4.0];
+    let words = of_lumens_at(&profile, 40).expect("two lumens");
+    assert_eq!(
+        words[..2],
+        ["lumen of the line, up to the flap, 120 ± 3 mm²", "other lumen next to it 300 ± 4 mm²"]
+    );
+    assert!(words[2].starts_with("both 420 ± "), "{words:?}");
 }

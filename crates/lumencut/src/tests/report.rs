@@ -116,6 +116,17 @@ fn a_place_that_is_not_graded_keeps_its_rows_and_says_why() {
 }
 
 #[test]
+fn flags_of_a_place_that_is_not_graded_are_in_the_report() {
+    let mut profile = tube();
+    let place = profile.nearest_section(30.0);
+    profile.flags[place] = CALCIUM;
+    let marked = marked(Some(30.0), &[]);
+    let grade = marked.grade(&profile);
+    let text = html(&shown(), &[page_of(&profile, "LAD", &marked, grade.as_ref())]).expect("a report");
+    assert!(text.contains("<p class=\"doubt\">At these places: calcium."), "{text}");
+}
+
+#[test]
 fn beside_calcium_a_diameter_is_told_from_both_sides() {
     let row = "<td class=\"words\">calcium, 7.00 mm if brighter material is excluded, 9.00 mm if it is included</td>";
     assert_eq!(html_of(&shown(), &marked(Some(30.0), &[20.0])).matches(row).count(), 1);

@@ -103,6 +103,7 @@ var gestures = (function(exports) {
 		key("6", "preset 5", "window from the smallest to the largest value"),
 		key("7", "preset 6", "window for MR angiography"),
 		key("8", "preset 7", "window for stents"),
+		key("9", "preset 8", "window for aneurysm sac"),
 		key("c", "context", "show or hide the context, the body around the cut"),
 		key("s", "silhouettes", "show or hide silhouette lines"),
 		key("m", "measure", "measure the picked vessel, or return to the previous layout"),

@@ -624,8 +624,8 @@ export type Profile = {
   readonly outer: ReadonlyArray<string | null>;
   /** The longest stretch with a flap, in one sentence. */
   readonly flap_stretch: string | null;
-  /** Areas of both lumens behind a flap, in words. */
-  readonly lumens: ReadonlyArray<string | null>;
+  /** Areas of the line's lumen, of the other one behind a flap, and of both, in words. */
+  readonly lumens: ReadonlyArray<readonly [string, string, string] | null>;
 };
 
 export type Reformation = {
@@ -776,6 +776,16 @@ export type SavedCamera = {
   readonly pixel_spacing: number;
 };
 
+/** A scan that the reader compares with the scan of the session. */
+export type SavedComparison = {
+  /** Its grid, by which it is recognised. */
+  readonly scan: SavedScan;
+  /** Whether it is the earlier one. */
+  readonly is_earlier: boolean;
+  /** Places in the session's scan and in this one that belong together (mm, LPS). */
+  readonly pairs_mm: ReadonlyArray<readonly [Vector, Vector]>;
+};
+
 /** Marks that the reader set on a vessel; arc lengths and diameters are in mm. */
 export type SavedMarks = {
   /** Arc length of a stenosis. */
@@ -846,6 +856,8 @@ export type SavedSession = {
   readonly one_millimetre_assumed?: boolean;
   /** Whether the context hides bone; exists since version 2. */
   readonly bone_hidden?: boolean;
+  /** The scan that the reader compares with this one; exists since version 2. */
+  readonly compared?: SavedComparison;
 };
 
 /** A sphere that traced vessels must not enter. */
@@ -920,6 +932,8 @@ export type ScansToCompare = {
   readonly identities: readonly [ScanIdentity, ScanIdentity];
   /** Whether scans of two patients are compared. */
   readonly other_patient: boolean;
+  /** Whether scans and patients are named. */
+  readonly is_named: boolean;
   /** Pictures of the earlier and the later scan for the report (PNG in base64); may be empty. */
   readonly pictures: ReadonlyArray<string>;
 };
@@ -1113,7 +1127,8 @@ export type VolumeReport = {
   readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
-  readonly doubt: string | null;
+  /** Notes for the user on its size and its values. */
+  readonly notes: ReadonlyArray<string>;
 };
 
 export type WholeVessel = {

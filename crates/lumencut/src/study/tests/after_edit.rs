@@ -47,6 +47,17 @@ fn an_edit_tells_what_line_facts_report_and_place_tell_and_shows_the_tree() {
 }
 
 #[test]
+fn a_vessel_without_a_name_is_called_by_its_number_in_the_list() {
+    let (mut study, lines) = bare("y_junction");
+    let trunk = [lines[0][4], lines[0][lines[0].len() - 5]].map(|point| point.to_array());
+    let first = made(&mut study, &Document::default(), &json!({"kind": "begin_vessel", "clicks": trunk}));
+    let mut document = first.edited.document;
+    (document.vessels[0].id, document.vessels[0].name) = (139, String::new());
+    let again = made(&mut study, &document, &json!({"kind": "set_bridge", "bridge": true}));
+    assert_eq!(as_json(&again.report)["vessels"][0]["name"], "vessel 139");
+}
+
+#[test]
 fn a_first_click_tells_its_place_and_the_whole_vessel_or_is_refused() {
     let (mut study, lines) = bare("y_junction");
     let click = lines[0][lines[0].len() / 2].to_array();

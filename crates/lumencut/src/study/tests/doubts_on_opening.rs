@@ -82,9 +82,9 @@ fn a_scan_of_no_size_of_a_body_is_doubted() {
     };
     study.begin_volume(&header(1.0)).expect("room");
     study.voxel_bytes(0, 1).expect("room")[0] = 9;
-    assert!(report_of(&study)["volume"]["doubt"].is_null());
+    assert!(report_of(&study)["volume"]["notes"] == serde_json::json!([]));
     study.begin_volume(&header(1000.0)).expect("room");
     study.voxel_bytes(0, 1).expect("room")[0] = 9;
-    let doubt = report_of(&study)["volume"]["doubt"].as_str().expect("a doubt").to_owned();
+    let doubt = report_of(&study)["volume"]["notes"][0].as_str().expect("a doubt").to_owned();
     assert!(doubt.starts_with("the scan is 20000 mm long"), "{doubt}");
 }

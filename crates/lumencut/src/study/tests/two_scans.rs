@@ -48,7 +48,7 @@ fn scans(more: &Json) -> Json {
     let record = record("stenosis");
     let mut message = json!({
         "records": [record, record], "pairs": [[20.0, 20.0]], "vessel": "ICA", "scans": ["2024", "2026"],
-        "identities": [{"patient": "A1"}, {"patient": "A1"}], "other_patient": false, "pictures": [],
+        "identities": [{"patient": "A1"}, {"patient": "A1"}], "other_patient": false, "is_named": true, "pictures": [],
     });
     for (name, value) in more.as_object().expect("names") {
         message[name] = value.clone();
@@ -82,6 +82,22 @@ fn each_kind_of_file_is_written() {
     let report = shown("QUJD").expect("a report");
     assert_eq!(report.as_str().expect("text").matches("data:image/png;base64,QUJD").count(), 2);
     assert_eq!(shown("<b>").expect_err("no base64").expected, "a PNG in base64");
+}
+
+#[test]
+fn files_name_neither_scans_nor_patients_unless_asked() {
+    let mut two = scans(&json!({
+        "identities": [{"patient": "ID-A1"}, {"patient": "ID-B2"}], "scans": ["Smith 1", "Smith 2"],
+        "other_patient": true,
+    }));
+    for (kind, is_named) in [("csv", false), ("html", false), ("html", true), ("json", false), ("json", true)]
+    {
+        two["is_named"] = json!(is_named);
+        let file = asked("comparison_file", &json!({"scans": two, "kind": kind})).expect("a file");
+        for secret in ["ID-A1", "ID-B2", "Smith 1", "Smith 2"] {
+            assert_eq!(file.as_str().expect("text").contains(secret), is_named, "{kind}");
+        }
+    }
 }
 
 #[test]
