@@ -119,7 +119,7 @@ impl Legend {
             RimValue::Narrowing => ("narrowing", "%", [0.0, up(most, PERCENT_STEP)], Colours::Sea),
             RimValue::Deviation => {
                 let end = up(most.max(-least), LENGTH_STEP);
-                ("diameter − reference", "mm", [-end, end], Colours::BlueRed)
+                ("deviation from the reference", "mm", [-end, end], Colours::BlueRed)
             }
             RimValue::Uncertainty => {
                 ("uncertainty of the diameter (1 SD)", "mm", [0.0, scale_end(known)], Colours::Sea)
