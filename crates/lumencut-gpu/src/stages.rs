@@ -12,6 +12,7 @@ use crate::depth_filter::DepthFilter;
 use crate::device::Device;
 use crate::leap::Leap;
 use crate::occlusion::Occlusion;
+use crate::rim::Rim;
 use crate::silhouette::Silhouette;
 use crate::surface::Surface;
 use crate::view::ViewParameters;
@@ -26,6 +27,7 @@ pub(crate) struct Stages {
     pub leap: Leap,
     pub depth_filter: DepthFilter,
     pub occlusion: Occlusion,
+    pub rim: Rim,
     pub surface: Surface,
     pub silhouette: Silhouette,
     pub context: ContextStage,
@@ -42,6 +44,7 @@ impl Stages {
             leap: Leap::new(device),
             depth_filter: DepthFilter::new(device),
             occlusion: Occlusion::new(device),
+            rim: Rim::new(device),
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),
             context: ContextStage::new(device),

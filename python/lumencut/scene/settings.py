@@ -18,6 +18,7 @@ from lumencut.scene.window import Opacity, Window
 DistanceRuleName: TypeAlias = Literal["local", "whole curve"]
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
+RimName: TypeAlias = Literal["diameter", "narrowing", "deviation", "uncertainty"]
 TreeName: TypeAlias = Literal["hidden", "wireframe"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 ContextFromName: TypeAlias = Literal["cut", "whole"]
@@ -88,6 +89,11 @@ class Settings(CheckedSettings):
         Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
+    rim : {"diameter", "narrowing", "deviation", "uncertainty"} or None, optional
+        Colour a rim around the vessels by values along them (name): ``diameter`` (mm), ``narrowing`` of
+        graded stenoses (%), ``deviation`` from their reference (mm) or ``uncertainty`` of the diameter
+        (mm). Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from
+        radii; all else needs profiles. Labels of the picture explain the colours. If not given: no rim.
     tree : {"hidden", "wireframe"}, default "hidden"
         Vessel walls over the picture (name): ``hidden``, or ``wireframe`` for rings across and lines along
         the vessels. Wires show the radii of the centerlines, ``unknown_radius`` where there is none; only
@@ -172,6 +178,7 @@ class Settings(CheckedSettings):
     silhouette_reach: float | None = 10.0
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
+    rim: RimName | None = None
     tree: TreeName = "hidden"
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None
