@@ -9,17 +9,17 @@ import click
 
 from lumencut._lumencut import SETTINGS, WRITTEN_VOLUMES
 from lumencut.cli import options
-from lumencut.cli import reformation_options as shared
-from lumencut.cli.cfa import FEATURES, show_cfa
-from lumencut.cli.cpr import MODES, show_cpr
 from lumencut.cli.dicom import grey_option
-from lumencut.cli.flatten import show_flattened
+from lumencut.cli.laid_out import reformation_options as shared
+from lumencut.cli.laid_out.cfa import FEATURES, show_cfa
+from lumencut.cli.laid_out.cpr import MODES, show_cpr
+from lumencut.cli.laid_out.each import show_each
+from lumencut.cli.laid_out.flatten import show_flattened
+from lumencut.cli.laid_out.reformation_options import option
+from lumencut.cli.laid_out.uncurl import show_uncurled
+from lumencut.cli.laid_out.untangled import show_network, show_untangled
 from lumencut.cli.parameters import SIZE, VECTOR, Parts
-from lumencut.cli.reformation_options import option
-from lumencut.cli.reformations import show_each
 from lumencut.cli.settings import rim_option
-from lumencut.cli.uncurl import show_uncurled
-from lumencut.cli.untangled import show_network, show_untangled
 
 #: `MODES` of `lumencut.reformations.unrolled_wall`; copied so that `--help` does not import numpy.
 MAP_MODES = ("wall", "radius", "thickness", "shaded")

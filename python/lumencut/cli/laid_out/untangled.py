@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut.cli import options, reformations
+from lumencut.cli import options
 from lumencut.cli.dicom import check_objects, object_options
+from lumencut.cli.laid_out import each
 from lumencut.cli.measure import rim_profiles
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.report import busy, detail, say, timings, warn
@@ -29,7 +30,7 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
 def show_untangled(**given: Any) -> None:
     """Write the picture of a tree."""
     options.check_picture(given["output"])
-    chosen, settings = reformations.like(given, "untangled")
+    chosen, settings = each.like(given, "untangled")
     view = options.view_from({**chosen, **_UNUSED, "pixel_spacing": None})
     renderer = _renderer(chosen, settings)
 
@@ -49,7 +50,7 @@ def show_untangled(**given: Any) -> None:
 def show_network(**given: Any) -> None:
     """Write the map of a tree."""
     options.check_picture(given["output"])
-    chosen, _ = reformations.like(given, "network")
+    chosen, _ = each.like(given, "network")
     view = options.view_from({**chosen, **_UNUSED, "pixel_spacing": None})
     output, value = chosen["output"], chosen["value"]
     voxels, tree = _read(chosen, "network")
