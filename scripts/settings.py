@@ -113,7 +113,7 @@ def kind_in_words(setting: Setting) -> str:
         case "transfer":
             return f"{{{names(setting)}}} or TransferFunction"
         case "window":
-            return f"Window | {{{window_names()}}}"
+            return "Window, or a name of `Window.named`"
         case "vessels":
             return "tuple of int or str"
     return PLAIN[setting.kind] + (" or None" if setting.optional and setting.open is None else "")
@@ -138,11 +138,6 @@ def annotation(name: str, setting: Setting) -> str:
 def alias(name: str) -> str:
     """What the type of the names of a setting is called."""
     return "".join(word.capitalize() for word in name.split("_")) + "Name"
-
-
-def window_names() -> str:
-    """The names that a window can have."""
-    return ", ".join(f'"{name}"' for name in WINDOW_NAMES)
 
 
 def names(setting: Setting) -> str:

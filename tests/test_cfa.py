@@ -137,7 +137,7 @@ def test_the_file_tells_what_it_shows(tmp_path):
 
 
 def test_the_features_are_those_of_the_library():
-    assert importlib.import_module("lumencut.cli.cfa").FEATURES == FEATURES
+    assert importlib.import_module("lumencut.cli.laid_out.cfa").FEATURES == FEATURES
 
 
 def test_one_vessel_and_the_same_like_it(files, tmp_path):

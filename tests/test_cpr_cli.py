@@ -38,7 +38,7 @@ def picture(path):
 
 
 def test_the_modes_are_those_of_the_library():
-    assert importlib.import_module("lumencut.cli.cpr").MODES == ALL_MODES
+    assert importlib.import_module("lumencut.cli.laid_out.cpr").MODES == ALL_MODES
 
 
 def test_one_vessel(files, tmp_path):

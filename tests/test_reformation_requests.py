@@ -6,7 +6,7 @@ from dataclasses import fields
 import pytest
 
 import lumencut
-from lumencut.cli.reformation_table import MAP_MODES
+from lumencut.cli.laid_out.reformation_table import MAP_MODES
 from lumencut.reformations.feature_aggregation import CfaRequest
 from lumencut.reformations.lumen_mapping import LumenMapRequest
 from lumencut.reformations.planar_reformation import CprRequest

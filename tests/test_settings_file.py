@@ -30,7 +30,7 @@ POINTS = TransferFunction([(-50.5, (0, 0, 0), 0), (300, (255, 128, 0), 0.25), (3
 
 
 #: Others exclude each other with these, or depend on them.
-LEFT_AS_IT_IS = ("context", "lumen_first", "distance_rule")
+LEFT_AS_IT_IS = ("context", "lumen_first", "distance_rule", "preserve_lumen")
 
 
 def other(name):
@@ -83,7 +83,7 @@ def test_every_setting_survives(tmp_path, name):
         Settings(context_transfer="bone"),
         Settings(window="mra", context_window="full"),
         Settings(window="cta"),
-        # Only mida has a gamma, and chosen vessels need `lumen_first`.
+        # Only mida has a gamma, chosen vessels need `lumen_first`, and a rim `preserve_lumen`.
         Settings(**{name: other(name) for name in _lumencut.SETTINGS if name not in LEFT_AS_IT_IS}),
     ],
     ids=["default", "paper", "no-context", "named-transfer", "named-windows", "fixed-window", "all"],

@@ -12,7 +12,8 @@ from click.testing import CliRunner
 import lumencut
 from dicom_scenes import LINE, SETTINGS, scan, series, stated, write_series
 from lumencut import FormatError, SettingsError, StudyWarning, Volume
-from lumencut.cli import main, reformation_table
+from lumencut.cli import main
+from lumencut.cli.laid_out import reformation_table
 from lumencut.files.volume_writers import write_volume
 from lumencut.scene.extents import Box
 from lumencut.scene.patients import Patient

@@ -50,11 +50,13 @@ if TYPE_CHECKING:
     from lumencut.notebook import show
     from lumencut.pictures.flights import flight
     from lumencut.pictures.frame import Frame
-    from lumencut.pictures.renderer import Renderer, render
+    from lumencut.pictures.one_view import render
+    from lumencut.pictures.renderer import Renderer
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
+    from lumencut.reformations.network_map import NetworkMap, network
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
     from lumencut.reformations.reformation import Reformation
     from lumencut.reformations.spiral_reformation import SpiralReformation, spiral
@@ -125,11 +127,13 @@ _HOME = {
     "notebook": ("show",),
     "pictures.flights": ("flight",),
     "pictures.frame": ("Frame",),
-    "pictures.renderer": ("Renderer", "render"),
+    "pictures.one_view": ("render",),
+    "pictures.renderer": ("Renderer",),
     "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
     "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
     "reformations.flattening": ("FlattenedSurface", "flatten"),
     "reformations.lumen_mapping": ("lumen_map",),
+    "reformations.network_map": ("NetworkMap", "network"),
     "reformations.planar_reformation": ("PlanarReformation", "cpr"),
     "reformations.reformation": ("Reformation",),
     "reformations.spiral_reformation": ("SpiralReformation", "spiral"),
@@ -192,6 +196,7 @@ __all__ = [
     "MeasuringError",
     "Mend",
     "MissingPackageError",
+    "NetworkMap",
     "Opacity",
     "Ostium",
     "PacsError",
@@ -244,6 +249,7 @@ __all__ = [
     "lumen_map",
     "measure",
     "mpcpr",
+    "network",
     "read_centerlines",
     "read_volume",
     "render",

@@ -101,6 +101,7 @@ __all__ = [
     "TreeFindings",
     "Uncurl",
     "Untangled",
+    "ValuesAlong",
     "VolumeFill",
     "VolumeOpening",
     "VolumePlan",
@@ -471,6 +472,7 @@ class Untangled(Layout):
     def overlaps(self) -> list[int]: ...
     @property
     def closures(self) -> list[tuple[tuple[float, float], tuple[float, float]]]: ...
+    def network(self, along: ValuesAlong) -> npt.NDArray[np.uint8]: ...
     def vessel(self) -> npt.NDArray[np.int32]: ...
     def laid_out(
         self,
@@ -489,7 +491,7 @@ class Uncurl(Layout):
 
 def axes_words(reformation: str, number: float = 0.0) -> str: ...
 def coloured(
-    value: npt.NDArray[np.float32], ends: tuple[float, float], grey: bool
+    value: npt.NDArray[np.float32], ends: tuple[float, float], colours: str
 ) -> npt.NDArray[np.uint8]: ...
 def fitted_uncurling(camera: Any, points: npt.NDArray[np.float64], smoothing: float) -> dict[str, Any]: ...
 def scale_end(value: npt.NDArray[np.float32]) -> float: ...
@@ -639,6 +641,15 @@ class Stenosis:
     def group(self, vessel: str) -> str: ...
 
 @final
+class ValuesAlong:
+    def __new__(
+        cls, kind: str, vessels: list[_Arrays], measured: list[tuple[Profile, list[Stenosis]]]
+    ) -> ValuesAlong: ...
+    @property
+    def legend(self) -> tuple[str, str, float, float, str]: ...
+    def values(self) -> list[npt.NDArray[np.float32]]: ...
+
+@final
 class Grade:
     @property
     def stenosis(self) -> Stenosis | None: ...
@@ -673,6 +684,7 @@ class Renderer:
         images: list[str] | None = None,
         callback: Callable[[int, int], object] | None = None,
         method: tuple[Any, ...] | None = None,
+        along: ValuesAlong | None = None,
     ) -> dict[str, Any]: ...
     def strength(
         self, camera: Any, settings: Settings, method: tuple[Any, ...]

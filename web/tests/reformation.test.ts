@@ -14,6 +14,7 @@ const CHOSEN: Chosen = {
 test('the request of each reformation contains only what it needs', () => {
   const { side } = CHOSEN;
   expect(reformationOf('untangled', CHOSEN)).toEqual({ kind: 'untangled', side });
+  expect(reformationOf('network', CHOSEN)).toEqual({ kind: 'network', side });
   expect(reformationOf('uncurl', CHOSEN)).toEqual({ kind: 'uncurl', vessel: 2, side, amount: 0.25 });
   expect(reformationOf('spiral', CHOSEN)).toEqual({ kind: 'spiral', vessel: 2, angle: 0.3 });
   expect(reformationOf('map', CHOSEN)).toEqual({ kind: 'map', vessel: 2, of: 'radius' });
@@ -23,7 +24,7 @@ test('none is requested before there is a vessel, or a view if it needs one', ()
   for (const [kind] of REFORMATIONS) {
     if (kind !== 'cpr') {
       expect(reformationOf(kind, { ...CHOSEN, vessel: null })).toBeNull();
-      const needsView = kind === 'untangled' || kind === 'uncurl';
+      const needsView = ['untangled', 'network', 'uncurl'].includes(kind);
       expect(reformationOf(kind, { ...CHOSEN, side: null }) === null).toBe(needsView);
     }
   }

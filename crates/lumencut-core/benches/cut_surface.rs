@@ -33,7 +33,13 @@ impl Buffers {
     fn written(&mut self) -> (&[f32], DepthImages<'_>) {
         (
             &self.distance,
-            DepthImages { depth: &mut self.depth, vessel: &mut self.vessel, sheet: &mut [], blend: &mut [] },
+            DepthImages {
+                depth: &mut self.depth,
+                vessel: &mut self.vessel,
+                sheet: &mut [],
+                blend: &mut [],
+                foot: &mut [],
+            },
         )
     }
 }

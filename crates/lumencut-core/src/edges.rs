@@ -35,7 +35,8 @@ pub struct EdgeSamples {
 
 impl EdgeSamples {
     /// The images of a frame that [`CpuRenderer::edge_samples`] reads.
-    pub const READS: ImageSet = ImageSet::of(&[Image::Leap, Image::Focus, Image::Value, Image::Context]);
+    pub const READS: ImageSet =
+        ImageSet::of(&[Image::Leap, Image::Focus, Image::Rim, Image::Value, Image::Context]);
 
     /// Whether a picture of this scene has lines at depth jumps.
     pub fn has_edges(scene: &Scene, settings: &Settings) -> bool {
@@ -47,7 +48,7 @@ impl EdgeSamples {
 
 impl CpuRenderer {
     /// Samples the pixels at and next to the lines of a frame, which has the images [`EdgeSamples::READS`], at
-    /// `offsets` from their middle (mm to the right and upwards). Context and shares remain those of the middle,
+    /// `offsets` from their middle (mm to the right and upwards). Context, shares and rim remain those of the middle,
     /// and the depth is not filtered. Fails as [`CpuRenderer::render`].
     pub fn edge_samples(
         &mut self,
@@ -156,6 +157,7 @@ impl EdgeView<'_> {
             has_sheet: true,
             wanted: ImageSet::of(&[]),
             settings: self.request.settings,
+            colors: None,
         };
         for stage in stages {
             pass.run(*stage, &mut images)?;
@@ -191,14 +193,16 @@ impl EdgeView<'_> {
     }
 
     fn colors(&self, [value, strength]: [&[f32]; 2]) -> Result<Vec<[u8; 4]>> {
-        let Frame { focus, context, .. } = self.frame;
+        let Frame { focus, rim, context, .. } = self.frame;
         let pixels = || self.pixels.iter().map(|pixel| *pixel as usize);
+        let rim: Vec<_> = pixels().filter_map(|pixel| rim.get(pixel).copied()).collect();
         let focus: Vec<_> = pixels().filter_map(|pixel| focus.get(pixel).copied()).collect();
         let context: Vec<_> =
             pixels().filter_map(|pixel| context.get(pixel).copied().map(premultiplied)).collect();
         let layers = Layers {
             value,
             strength: Some(strength),
+            rim: Some(&rim[..]).filter(|rim| !rim.is_empty()),
             focus: Some(&focus[..]).filter(|focus| !focus.is_empty()),
             context: Some(&context[..]).filter(|context| !context.is_empty()),
         };

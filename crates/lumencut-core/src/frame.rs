@@ -29,6 +29,8 @@ pub struct Frame {
     pub leap: Vec<u32>,
     /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if all is shown.
     pub focus: Vec<Shares>,
+    /// Colour and share of the rim around the vessels ([`crate::stages::rim`]); empty without one.
+    pub rim: Vec<[u8; 4]>,
     /// Distance to the nearest centerline in the image plane (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
@@ -51,6 +53,7 @@ impl Frame {
             blend: Vec::new(),
             leap: Vec::new(),
             focus: Vec::new(),
+            rim: Vec::new(),
             distance: Vec::new(),
             value: Vec::new(),
             context: Vec::new(),
@@ -88,6 +91,7 @@ impl Frame {
             (Image::Blend, !self.blend.is_empty()),
             (Image::Leap, !self.leap.is_empty()),
             (Image::Focus, !self.focus.is_empty()),
+            (Image::Rim, !self.rim.is_empty()),
             (Image::Distance, !self.distance.is_empty()),
             (Image::Value, !self.value.is_empty()),
             (Image::Context, !self.context.is_empty()),
@@ -116,6 +120,7 @@ impl Frame {
         keep(&mut self.blend, wanted.has(Image::Blend));
         keep(&mut self.leap, wanted.has(Image::Leap));
         keep(&mut self.focus, wanted.has(Image::Focus));
+        keep(&mut self.rim, wanted.has(Image::Rim));
         keep(&mut self.distance, wanted.has(Image::Distance));
         keep(&mut self.value, wanted.has(Image::Value));
         keep(&mut self.context, wanted.has(Image::Context));

@@ -26,6 +26,7 @@ use crate::scene::{LeveledTree, Scene, SharedVolume};
 use crate::settings::Settings;
 use crate::stages::composite::{CompositeParameters, Layers, composite};
 use crate::stages::depth::{CutSurface, Sheet};
+use crate::stages::rim::RimColors;
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
 
@@ -42,12 +43,14 @@ pub struct Request<'a> {
     pub stop: Stop<'a>,
     /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
+    /// Colours along the vessels, which the setting `rim` needs.
+    pub rim: Option<&'a RimColors>,
 }
 
 impl<'a> Request<'a> {
     /// A request for all images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
-        Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
+        Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None, rim: None }
     }
 
     /// The settings adapted to the vessels of the scene, checked. Fails with [`ErrorKind::Settings`] for a
@@ -55,7 +58,9 @@ impl<'a> Request<'a> {
     pub fn settings_for(&self, scene: &Scene) -> Result<Cow<'a, Settings>> {
         self.settings.check()?;
         if let Some(tree) = &scene.tree {
-            return self.settings.for_vessels(tree.tree().vessels().len());
+            let count = tree.tree().vessels().len();
+            self.check_rim(scene, count)?;
+            return self.settings.for_vessels(count);
         }
         let Some((setting, what)) = self.settings.focused() else {
             return Ok(Cow::Borrowed(self.settings));
@@ -63,6 +68,18 @@ impl<'a> Request<'a> {
         let found = format!("{what} for a scene without centerlines");
         Err(Error::new(ErrorKind::Settings, setting, found, "a scene with centerlines")
             .mend(format!("give centerlines, or leave the {setting} out")))
+    }
+
+    /// Rejects a picture with a rim without a colour for each vessel.
+    fn check_rim(&self, scene: &Scene, count: usize) -> Result<()> {
+        let is_drawn =
+            self.settings.rim.is_some() && scene.volume.is_some() && self.images.has(Image::Picture);
+        let known = self.rim.map_or(0, RimColors::vessels);
+        if !is_drawn || known == count {
+            return Ok(());
+        }
+        let found = format!("values of {known} vessels");
+        Err(Error::new(ErrorKind::Settings, "rim", found, format!("values of {count} vessels")))
     }
 
     /// Leaves out the picture if the scene has no volume to show.
@@ -186,9 +203,9 @@ impl CpuRenderer {
         let &Request { settings, stop, progress, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress };
         let (mut clock, mut images) = (Clock::start(), Images::default());
-        let Frame { geometry, vessel, leap, focus, .. } = &frame;
+        let Frame { geometry, vessel, leap, focus, rim, .. } = &frame;
         let wanted = request.images;
-        let pass = LookPass { work, volume, around, settings, geometry, vessel, leap, focus, wanted };
+        let pass = LookPass { work, volume, around, settings, geometry, vessel, leap, focus, rim, wanted };
         for stage in Stage::of_look(settings, &frame.geometry, frame.images(), request.images) {
             request.begin_stage(stage);
             pass.run(stage, &mut images)?;
@@ -224,7 +241,7 @@ impl CpuRenderer {
 
     /// The input of the cut-surface stages, after the levels are projected.
     pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
-        let &Request { camera, settings, images, stop, progress } = request;
+        let &Request { camera, settings, images, stop, progress, rim } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
         CutSurfacePass {
             work: Work { size: camera.size(), isa: self.isa, stop, progress },
@@ -232,6 +249,7 @@ impl CpuRenderer {
             has_sheet: Stage::has_sheet(settings, images),
             wanted: images,
             settings,
+            colors: rim,
         }
     }
 }
@@ -242,7 +260,7 @@ pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, St
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop, progress: None };
     let mut image = vec![[0; 4]; value.len()];
-    let layers = Layers { value, strength: None, focus: None, context: None };
+    let layers = Layers { value, strength: None, focus: None, rim: None, context: None };
     composite(&work, &CompositeParameters::new(settings), &layers, &mut image)?;
     clear_outside(&mut image, value);
     Ok(image)

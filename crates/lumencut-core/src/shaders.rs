@@ -64,6 +64,7 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/focus",
     "stages/leap",
     "stages/occlusion",
+    "stages/rim",
     "stages/silhouette",
     "stages/surface",
 ];

@@ -22,6 +22,7 @@ mod mpcpr;
 mod occlusion;
 mod one_decision;
 mod paper;
+mod rim;
 mod scene;
 mod settings;
 mod stages;

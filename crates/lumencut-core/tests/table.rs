@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::geometry::{Curved, Geometry};
 use lumencut_core::math::lanes::Isa;
-use lumencut_core::settings::{Focus, Settings, SilhouetteRule};
+use lumencut_core::settings::{Focus, RimValue, Settings, SilhouetteRule};
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use lumencut_core::stages::{Image, ImageSet, Stage, Work};
@@ -52,7 +52,11 @@ fn stages_run_in_the_order_of_the_table() {
 #[test]
 fn every_image_is_written_before_it_is_read() {
     let mut made = ImageSet::of(&[]);
-    for stage in whole(&Settings { focus: Some(Focus::default()), ..Settings::default() }) {
+    for stage in whole(&Settings {
+        focus: Some(Focus::default()),
+        rim: Some(RimValue::Diameter),
+        ..Settings::default()
+    }) {
         for image in stage.reads() {
             assert!(made.has(*image), "{stage:?} reads {image:?} before it is there");
         }

@@ -20,13 +20,14 @@ pub(crate) struct Layers<'a> {
     pub value: Option<&'a Buffer>,
     pub strength: Option<&'a Buffer>,
     pub focus: Option<&'a Buffer>,
+    pub rim: Option<&'a Buffer>,
     pub context: Option<&'a Buffer>,
 }
 
 #[derive(Debug)]
 pub(crate) struct Composite {
     /// A stage for each combination of layers, compiled when needed.
-    stages: [OnceLock<Stage>; 16],
+    stages: [OnceLock<Stage>; 32],
     layer: OnceLock<Stage>,
     parameters: Buffer,
     /// Bound in place of a missing layer and never read; white, so that a mistaken read shows.
@@ -56,22 +57,23 @@ impl Composite {
         image: &Buffer,
     ) {
         let device = recording.device;
-        let Layers { value, strength, focus, context } = layers;
-        let there = [value, strength, focus, context].map(|layer| f64::from(u8::from(layer.is_some())));
+        let Layers { value, strength, focus, rim, context } = layers;
+        let there = [value, strength, focus, rim, context].map(|layer| f64::from(u8::from(layer.is_some())));
         let place = there.iter().fold(0, |place, there| 2 * place + *there as usize);
         let stage = self.stages[place].get_or_init(|| {
-            let [has_value, has_strength, has_focus, has_context] = there;
+            let [has_value, has_strength, has_focus, has_rim, has_context] = there;
             let constants = [
                 ("ALONE", 1.0 - has_value),
                 ("HAS_STRENGTH", has_strength),
                 ("HAS_FOCUS", has_focus),
+                ("HAS_RIM", has_rim),
                 ("HAS_CONTEXT", has_context),
             ];
             Stage::new(device, ROOM, &constants)
         });
         let or_nothing = |layer: Option<_>| layer.unwrap_or(&self.nothing);
-        let [value, strength, focus, context] = [value, strength, focus, context].map(or_nothing);
-        let buffers = [view, context, image, &self.parameters, value, strength, focus];
+        let [value, strength, focus, rim, context] = [value, strength, focus, rim, context].map(or_nothing);
+        let buffers = [view, context, image, &self.parameters, value, strength, focus, rim];
         recording.run(stage, &buffers.map(Buffer::as_entire_binding), groups(size, GROUP));
     }
 

@@ -39,7 +39,7 @@ pub(crate) struct CutSurfaceStages {
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
     /// A stage for each combination of distance rule, level choice, *lumen first* and details; compiled when needed.
-    depth: [[[[Option<Stage>; 3]; 2]; 2]; 2],
+    depth: [[[[Option<Stage>; 4]; 2]; 2]; 2],
     parameters: Buffer,
     /// The layout of the levels that was written last.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
@@ -136,7 +136,7 @@ impl CutSurfaceStages {
         let Images { size, distance, vessel, .. } = images;
         let details = match rules.details {
             Details::None | Details::Sheet => &images.sheet,
-            Details::Blend => &images.gathered,
+            Details::Blend | Details::Foot => &images.gathered,
         };
         let (slots, boxes, of_slot) = (&levels.slots, &levels.boxes, &levels.vessel_of_slot);
         let last = if rules.is_own { &levels.spans } else { distance };
@@ -152,15 +152,15 @@ impl CutSurfaceStages {
         let [curve, own, lumen] = [whole_curve, is_own, lumen_first].map(usize::from);
         self.depth[curve][own][lumen][details as usize].get_or_insert_with(|| {
             let [across, rows] = tile_of(device).map(|n| n as f64);
-            let switches = [whole_curve, lumen_first, details == Details::Sheet, details == Details::Blend];
-            let [whole_curve, lumen_first, has_sheet, has_blend] = switches.map(|is| f64::from(u8::from(is)));
+            let switch = |is| f64::from(u8::from(is));
             let constants = [
                 ("ACROSS", across),
                 ("ROWS", rows),
-                ("WHOLE_CURVE", whole_curve),
-                ("LUMEN_FIRST", lumen_first),
-                ("HAS_SHEET", has_sheet),
-                ("HAS_BLEND", has_blend),
+                ("WHOLE_CURVE", switch(whole_curve)),
+                ("LUMEN_FIRST", switch(lumen_first)),
+                ("HAS_SHEET", switch(details == Details::Sheet)),
+                ("HAS_BLEND", switch(details == Details::Blend)),
+                ("HAS_FOOT", switch(details == Details::Foot)),
             ];
             let entry = if is_own { "depth" } else { "nearest" };
             Stage::entry(device, "stages/depth", entry, &constants)
@@ -174,6 +174,7 @@ pub(crate) enum Details {
     None,
     Sheet,
     Blend,
+    Foot,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -185,15 +186,19 @@ pub(crate) struct DepthRules {
 }
 
 impl DepthRules {
-    /// The runs of the stage: two if both the sheet and the blend are needed.
+    /// The runs of the stage: one for each of sheet, blend and foot that is needed.
     pub(crate) fn of(request: &Request) -> Vec<Self> {
         let &Request { settings, images, .. } = request;
-        let wanted = match (Table::has_sheet(settings, images), Table::has_blend(images)) {
-            (false, false) => &[Details::None][..],
-            (true, false) => &[Details::Sheet],
-            (false, true) => &[Details::Blend],
-            (true, true) => &[Details::Sheet, Details::Blend],
-        };
+        let needed = [
+            (Details::Sheet, Table::has_sheet(settings, images)),
+            (Details::Blend, Table::has_blend(images)),
+            (Details::Foot, Table::has_foot(settings, images)),
+        ];
+        let mut wanted: Vec<_> =
+            needed.iter().filter(|(_, is_needed)| *is_needed).map(|(details, _)| *details).collect();
+        if wanted.is_empty() {
+            wanted.push(Details::None);
+        }
         let run = |details: &Details| Self {
             whole_curve: settings.distance_rule == DistanceRule::WholeCurve,
             is_own: settings.level_choice == LevelChoice::Own,

@@ -18,6 +18,7 @@ pub(crate) struct Images {
     pub sheet: Buffer,
     pub leap: Buffer,
     pub focus: Buffer,
+    pub rim: Buffer,
     pub value: Buffer,
     /// First the depth filtered along columns only (within zones), later the slopes that give the silhouettes.
     pub raised: Buffer,
@@ -50,6 +51,7 @@ impl Images {
             sheet: device.image("sheet", pixels, MAX_PIXEL_BYTES),
             leap: number("leap"),
             focus: device.image("focus", pixels, MAX_PIXEL_BYTES),
+            rim: number("rim"),
             value: number("value"),
             raised: number("raised slope"),
             strength: number("strength"),
@@ -69,10 +71,11 @@ impl Images {
             Image::UnfilteredDepth | Image::Depth => &self.depth,
             Image::Vessel => &self.vessel,
             Image::Sheet => &self.sheet,
-            // No view has both, see `Stage::has_blend`.
-            Image::Blend | Image::Gathered => &self.gathered,
+            // Never needed at the same time, see `Stage::has_blend` and `Stage::has_foot`.
+            Image::Blend | Image::Foot | Image::Gathered => &self.gathered,
             Image::Leap => &self.leap,
             Image::Focus => &self.focus,
+            Image::Rim => &self.rim,
             Image::Value => &self.value,
             Image::Strength => &self.strength,
             Image::Start => &self.start,

@@ -23,6 +23,7 @@ mod pass;
 mod pass_on_cpu;
 mod recording;
 pub mod renderer;
+mod rim;
 #[cfg(target_arch = "wasm32")]
 pub mod screen;
 mod silhouette;

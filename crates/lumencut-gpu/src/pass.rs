@@ -9,6 +9,7 @@ use lumencut_core::scene::Scene;
 use lumencut_core::settings::SilhouetteRule;
 use lumencut_core::stages::body::Outline;
 use lumencut_core::stages::focus::{FocusParameters, Shares};
+use lumencut_core::stages::rim::RimParameters;
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use wgpu::Buffer;
 
@@ -105,6 +106,7 @@ impl<'a> Pass<'a> {
             Stage::Focus => self.focus(),
             Stage::Occlusion => self.occlusion(),
             Stage::FarRim => self.far_rim(),
+            Stage::Rim => self.rim(),
             Stage::Surface => return self.surface(),
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
@@ -177,6 +179,16 @@ impl<'a> Pass<'a> {
         far_rim.record(&mut self.recording, view, (self.images, depth), self.request);
     }
 
+    fn rim(&mut self) {
+        let (Some(tree), Some(colors)) = (&self.scene.tree, self.request.rim) else { return };
+        let Request { settings, camera, .. } = self.request;
+        let levels = tree.levels(settings.levels, settings.centerline_smoothing);
+        let along = (&colors.strips(&levels[0])[..], colors.colors());
+        let Stages { view, rim, .. } = &*self.stages;
+        rim.write(self.device, &RimParameters::new(settings, camera));
+        rim.record(&mut self.recording, view, along, self.images);
+    }
+
     fn surface(&mut self) -> Result<()> {
         let (Some(on_device), Some(shared)) = (self.volume, &self.scene.volume) else { return Ok(()) };
         self.stages.place(self.device, on_device, &shared.volume, &self.geometry);
@@ -236,6 +248,7 @@ impl<'a> Pass<'a> {
             value: layer(Image::Value),
             strength: layer(Image::Strength),
             focus: layer(Image::Focus),
+            rim: layer(Image::Rim),
             context: layer(Image::Gathered),
         };
         let Images { size, context, picture, .. } = self.images;
@@ -271,6 +284,7 @@ impl<'a> Pass<'a> {
                 (Image::Blend, _) => frame.blend = results.numbers(n),
                 (Image::Leap, _) => frame.leap = results.numbers(n),
                 (Image::Focus, _) => frame.focus = results.numbers(n),
+                (Image::Rim, _) => frame.rim = results.numbers(n),
                 (Image::Value, _) => frame.value = with_holes(results.numbers(n)),
                 (Image::Context, _) => frame.context = results.numbers(n),
                 (Image::Picture, _) => frame.image = results.numbers(n),
@@ -300,7 +314,7 @@ impl<'a> Pass<'a> {
 
 fn bytes_of(image: Image) -> usize {
     match image {
-        Image::Gathered | Image::Sheet | Image::Blend | Image::Focus => 16,
+        Image::Gathered | Image::Sheet | Image::Blend | Image::Foot | Image::Focus => 16,
         _ => 4,
     }
 }

@@ -59,8 +59,9 @@ impl Pass<'_> {
         let vessel = std::mem::take(&mut images.vessel);
         let leap = std::mem::take(&mut images.leap);
         let focus = std::mem::take(&mut images.focus);
-        let (geometry, vessel, leap, focus) = (&geometry, &vessel, &leap, &focus);
-        let pass = LookPass { work, volume, around, settings, geometry, vessel, leap, focus, wanted };
+        let rim = std::mem::take(&mut images.rim);
+        let (geometry, vessel, leap, focus, rim) = (&geometry, &vessel, &leap, &focus, &rim);
+        let pass = LookPass { work, volume, around, settings, geometry, vessel, leap, focus, rim, wanted };
         pass.run(stage, images)?;
         if stage == Stage::Context && images.gathered.is_empty() {
             images.gathered = vec![[0.0; 4]; self.images.pixels()];
@@ -76,8 +77,10 @@ impl Pass<'_> {
             Image::Vessel => bytemuck::cast_slice(&images.vessel),
             Image::Sheet => bytemuck::cast_slice(&images.sheet),
             Image::Blend => bytemuck::cast_slice(&images.blend),
+            Image::Foot => bytemuck::cast_slice(&images.foot),
             Image::Leap => bytemuck::cast_slice(&images.leap),
             Image::Focus => bytemuck::cast_slice(&images.focus),
+            Image::Rim => bytemuck::cast_slice(&images.rim),
             Image::Value => &without_holes(&images.value),
             Image::Strength => bytemuck::cast_slice(&images.strength),
             Image::Start => bytemuck::cast_slice(&images.start),
@@ -100,8 +103,10 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
         Image::Vessel => images.vessel = results.numbers(n),
         Image::Sheet => images.sheet = results.numbers(n),
         Image::Blend => images.blend = results.numbers(n),
+        Image::Foot => images.foot = results.numbers(n),
         Image::Leap => images.leap = results.numbers(n),
         Image::Focus => images.focus = results.numbers(n),
+        Image::Rim => images.rim = results.numbers(n),
         Image::Value => images.value = with_holes(results.numbers(n)),
         Image::Strength => images.strength = results.numbers(n),
         Image::Start => images.start = results.numbers(n),

@@ -13,6 +13,7 @@ use crate::device::Device;
 use crate::far_rim::FarRim;
 use crate::leap::Leap;
 use crate::occlusion::Occlusion;
+use crate::rim::Rim;
 use crate::silhouette::Silhouette;
 use crate::surface::Surface;
 use crate::view::ViewParameters;
@@ -28,6 +29,7 @@ pub(crate) struct Stages {
     pub depth_filter: DepthFilter,
     pub occlusion: Occlusion,
     pub far_rim: FarRim,
+    pub rim: Rim,
     pub surface: Surface,
     pub silhouette: Silhouette,
     pub context: ContextStage,
@@ -45,6 +47,7 @@ impl Stages {
             depth_filter: DepthFilter::new(device),
             occlusion: Occlusion::new(device),
             far_rim: FarRim::new(device),
+            rim: Rim::new(device),
             surface: Surface::new(device),
             silhouette: Silhouette::new(device),
             context: ContextStage::new(device),

@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 
+mod along_vessels;
 mod centerlines;
 mod chart;
 mod comparing;
@@ -93,6 +94,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(uncurl::tangential_layout, module)?)?;
     module.add_function(wrap_pyfunction!(views::fitted_uncurling, module)?)?;
     module.add_function(wrap_pyfunction!(reforming::axes_words, module)?)?;
+    module.add_class::<along_vessels::ValuesAlong>()?;
     module.add_function(wrap_pyfunction!(reforming::coloured, module)?)?;
     module.add_function(wrap_pyfunction!(reforming::scale_end, module)?)?;
     module.add_function(wrap_pyfunction!(reforming::spiral_pitch, module)?)?;

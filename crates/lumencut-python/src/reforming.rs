@@ -2,6 +2,7 @@
 
 use lumencut::axes_words::Axes;
 use lumencut::error::{Error, ErrorKind};
+use lumencut::named::Named;
 use lumencut::spiral_lengths::{self, Room};
 use lumencut::value_colours::{self, Colours};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
@@ -16,12 +17,13 @@ use crate::errors::to_python;
 pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
     let axes = match reformation {
         "untangled" => Axes::Untangled,
+        "network" => Axes::Network,
         "uncurled" => Axes::Uncurled(number),
         "spiral by arc" => Axes::SpiralByArc(number),
         "spiral by angle" => Axes::SpiralByAngle,
         "map" => Axes::Map(number),
         other => {
-            let expected = "untangled, uncurled, spiral by arc, spiral by angle or map";
+            let expected = "untangled, network, uncurled, spiral by arc, spiral by angle or map";
             let error = Error::new(ErrorKind::Settings, "reformation", format!("'{other}'"), expected);
             return Err(to_python(error));
         }
@@ -36,12 +38,12 @@ pub(crate) fn coloured<'py>(
     py: Python<'py>,
     value: PyReadonlyArray2<'py, f32>,
     ends: [f64; 2],
-    grey: bool,
+    colours: &str,
 ) -> PyResult<Bound<'py, PyArray3<u8>>> {
     let value = value.as_array();
     let (height, width) = value.dim();
     let values: Vec<f32> = value.iter().copied().collect();
-    let colours = if grey { Colours::Grey } else { Colours::Viridis };
+    let colours = Colours::named("colours", colours).map_err(to_python)?;
     let pixels = value_colours::coloured(&values, ends, colours).into_flattened();
     PyArray1::from_vec(py, pixels).reshape([height, width, 4])
 }

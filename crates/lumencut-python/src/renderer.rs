@@ -25,6 +25,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::along_vessels::ValuesAlong;
 use crate::cpr::Cpr;
 use crate::errors::{exception, to_python, warn};
 use crate::layout::Layout;
@@ -126,8 +127,8 @@ impl Renderer {
     }
 
     /// The requested images of a view: the cut surface if there are vessels, the picture if there is a volume. `method` defaults to
-    /// the cut surface. `callback` receives the number of finished parts, of `SHARES` in all, and `SHARES`.
-    #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None))]
+    /// the cut surface. `along` are the values of a rim. `callback` receives the number of finished parts, of `SHARES` in all, and `SHARES`.
+    #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None, along=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
         &self,
@@ -138,8 +139,10 @@ impl Renderer {
         images: Option<Vec<String>>,
         callback: Option<Py<PyAny>>,
         method: Option<MethodArgument>,
+        along: Option<&Bound<'py, ValuesAlong>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
+        let colors = along.map(|along| along.get().0.rim().map_err(to_python)).transpose()?;
         let images = images.map_or(Ok(ImageSet::ALL), |names| image_set(&names))?;
         let method = method.map_or(Ok(Method::CutSurface), |method| method.method())?;
         let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
@@ -154,7 +157,8 @@ impl Renderer {
         let reporter = callback.as_ref().map(|callback| Reporter { progress: &progress, callback });
         let (frame, given_up) = interruptible(py, reporter.as_ref(), |stop| {
             let progress = reporter.as_ref().map(|reporter| reporter.progress);
-            let request = Request { camera: &camera, settings, images, stop, progress };
+            let rim = colors.as_ref();
+            let request = Request { camera: &camera, settings, images, stop, progress, rim };
             // The lock is taken outside the pool. A pool thread that waits for part of this view could start another view, and wait
             // for the lock that it holds itself. After an interrupted rendering, the next one overwrites all that it left.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);

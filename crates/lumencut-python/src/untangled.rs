@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use lumencut::network;
 use lumencut::reformations::untangled::{self, UntangledParameters};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 
+use crate::along_vessels::ValuesAlong;
 use crate::layout::Layout;
 use crate::tree::{VesselArrays, tree};
 use crate::views::CameraArgument;
@@ -63,6 +65,19 @@ impl Untangled {
     #[getter]
     fn closures(&self) -> Vec<[[f64; 2]; 2]> {
         self.0.closures().iter().map(|places| places.map(|place| place.to_array())).collect()
+    }
+
+    /// The map of the tree as coloured lines, RGBA, shape (H, W, 4).
+    fn network<'py>(
+        &self,
+        py: Python<'py>,
+        along: &Bound<'py, ValuesAlong>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        use lumencut::reformations::Layout as _;
+
+        let ([width, height], along) = (self.0.size(), along.get());
+        let pixels = computed(py, |stop| network::drawn(&self.0, &along.0, stop))?.into_flattened();
+        PyArray1::from_vec(py, pixels).reshape([height, width, 4])
     }
 
     /// The vessel of each pixel, shape (H, W), -1 if none.

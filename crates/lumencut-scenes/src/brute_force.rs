@@ -25,7 +25,14 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
     // These negative values would remain in pixels that brute force skips, and so reveal them.
     let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
-    let written = DepthImages { depth: &mut depth, vessel: &mut vessel, sheet: &mut [], blend: &mut [] };
+    let (depth_image, vessel_image) = (&mut depth, &mut vessel);
+    let written = DepthImages {
+        depth: depth_image,
+        vessel: vessel_image,
+        sheet: &mut [],
+        blend: &mut [],
+        foot: &mut [],
+    };
     brute_force::depth(&pass.work, &pass.surface, &distance, written).unwrap();
     let mut images = Images { unfiltered_depth: depth, vessel, ..Images::default() };
     if settings.depth_filter {

@@ -172,12 +172,13 @@ impl Engine {
     }
 
     async fn rendered(&mut self, view: &View) -> Result<Option<Uint8ClampedArray>> {
-        let View { camera, settings, method } = view;
+        let View { camera, settings, method, rim } = view;
         let scene = self.study.scene()?;
         let images = ImageSet::of(&[Image::Picture]);
         stopping::heard(stopping::VIEW);
         let stop = || stopping::is_asked(stopping::VIEW);
-        let request = Request { images, stop: &stop, ..Request::new(camera, settings) };
+        let rim = rim.as_ref();
+        let request = Request { images, stop: &stop, rim, ..Request::new(camera, settings) };
         match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
             Drawn::OnScreen => Ok(None),
             Drawn::Frame(frame) => Ok(Some(clamped(&frame.image.into_flattened()))),

@@ -7,6 +7,8 @@ use crate::text::{fixed, rounded};
 pub enum Axes {
     /// The untangled CPR.
     Untangled,
+    /// The network map.
+    Network,
     /// A vessel straightened by an amount from 0 (as it is) to 1 (straight).
     Uncurled(f64),
     /// The spiral CPR, sampled at even arc lengths; the number is the pitch (mm).
@@ -23,6 +25,10 @@ impl Axes {
         match self {
             Self::Untangled => {
                 "Along each vessel: its length, in mm. Across it: to its sides, in mm. Branches are spread apart: angles between vessels differ from those in the body."
+                    .to_owned()
+            }
+            Self::Network => {
+                "Along each vessel: its length, in mm. Across it: its diameter. Branches are spread apart: angles between vessels differ from those in the body."
                     .to_owned()
             }
             Self::Uncurled(amount) => format!(

@@ -87,6 +87,11 @@ impl<K: PartialEq> KeptProfiles<K> {
         self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
     }
 
+    /// The index of the profile of a key that was cached last.
+    pub(crate) fn last_of(&self, key: &K) -> Option<usize> {
+        self.kept.iter().rposition(|kept| kept.of == *key)
+    }
+
     fn estimates(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
         let asked = (request.wall, request.fwhm);
         if let Some((_, estimates)) = self.estimates.iter().find(|(other, _)| *other == asked) {

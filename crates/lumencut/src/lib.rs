@@ -3,6 +3,7 @@
 //!
 //! Points are in world space (LPS, mm) unless stated otherwise.
 
+pub mod along_vessels;
 pub mod axes_words;
 pub mod backend;
 mod choice;
@@ -36,6 +37,8 @@ pub mod mends;
 pub mod method;
 pub mod misplaced;
 pub(crate) mod narrower;
+mod narrowing;
+pub mod network;
 pub mod not_measured;
 pub mod not_suggested;
 pub mod parts;

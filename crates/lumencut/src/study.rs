@@ -3,6 +3,7 @@
 //! space (LPS, mm) unless stated otherwise.
 
 mod after_edit;
+mod along;
 pub mod asking;
 mod bone;
 pub mod brightest;

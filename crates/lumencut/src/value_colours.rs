@@ -1,5 +1,7 @@
 //! Colour maps for measured values, such as radius and thickness.
 
+use lumencut_core::named::Named;
+
 /// Viridis at even steps, by Nathaniel Smith and Stéfan van der Walt, public domain (CC0). Its lightness rises evenly, so that it
 /// works in grey and for colour-blind readers.
 const VIRIDIS: [[u8; 3]; 10] = [
@@ -17,6 +19,14 @@ const VIRIDIS: [[u8; 3]; 10] = [
 
 const GREYS: [[u8; 3]; 2] = [[0; 3], [255; 3]];
 
+/// From dark blue over green to pale green, in even steps of lightness. It has no yellow, the colour of silhouettes.
+const SEA: [[u8; 3]; 6] =
+    [[65, 61, 123], [55, 101, 158], [52, 143, 167], [64, 183, 173], [139, 218, 178], [222, 245, 229]];
+
+/// From blue over light grey to red, a pair that colour-blind readers can tell apart; the middle is zero.
+const BLUE_RED: [[u8; 3]; 5] =
+    [[0, 90, 181], [120, 172, 226], [225, 225, 225], [233, 145, 128], [220, 50, 32]];
+
 /// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
@@ -24,13 +34,24 @@ pub enum Colours {
     Viridis,
     /// From black to white.
     Grey,
+    /// From dark blue to pale green, without yellow.
+    Sea,
+    /// From blue over grey to red.
+    BlueRed,
+}
+
+impl Named for Colours {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("viridis", Self::Viridis), ("grey", Self::Grey), ("sea", Self::Sea), ("blue-red", Self::BlueRed)];
 }
 
 impl Colours {
-    fn table(self) -> &'static [[u8; 3]] {
+    pub(crate) fn table(self) -> &'static [[u8; 3]] {
         match self {
             Self::Viridis => &VIRIDIS,
             Self::Grey => &GREYS,
+            Self::Sea => &SEA,
+            Self::BlueRed => &BLUE_RED,
         }
     }
 }

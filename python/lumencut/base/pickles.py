@@ -12,6 +12,7 @@ _PARTS = {
     "Box": "scene.extents",
     "CArm": "measuring.profile",
     "FrameSource": "pictures.frame_source",
+    "Legend": "pictures.value_colours",
     "Origin": "scene.study",
     "Spot": "measuring.profile",
     "Stretch": "measuring.profile",

@@ -20,11 +20,11 @@ from lumencut.cli.evaluate import evaluate
 from lumencut.cli.figures import figures
 from lumencut.cli.first_words import first_words
 from lumencut.cli.info import info
+from lumencut.cli.laid_out.reformation_table import COMMANDS
 from lumencut.cli.measure import measure
 from lumencut.cli.pull import pull
 from lumencut.cli.push import push
 from lumencut.cli.reading_study import reading_results, reading_study
-from lumencut.cli.reformation_table import COMMANDS
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
 from lumencut.cli.settings import settings

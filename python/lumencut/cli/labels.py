@@ -36,7 +36,7 @@ def label_options(command: Command) -> Command:
 
 def check_labels(chosen: dict[str, Any], outputs: Iterable[Path], size: tuple[int, int]) -> None:
     """Reject labels that no output can show, and warn if the picture is too small for them."""
-    from lumencut.pictures.annotation import SMALLEST_SIDE
+    from lumencut.pictures.lettering import SMALLEST_SIDE
 
     asked = [name for name in ("annotate", "vessel_names") if chosen[name]]
     if not asked:

@@ -17,12 +17,13 @@ from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.parameters import PLACES, WALL, joined_places
 from lumencut.cli.report import bar, say, verbose_option, warn
 from lumencut.cli.scene import read_files, scene_from
-from lumencut.cli.vessels import named_vessels, path_option
+from lumencut.cli.vessels import named_vessels, path_option, shown_ids
 from lumencut.errors import MeasuringError
 
 if TYPE_CHECKING:
     from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
     from lumencut.measuring.profile import Profile
+    from lumencut.measuring.stenosis import Stenosis
     from lumencut.scene.vessel import Vessel
     from lumencut.scene.vessel_tree import VesselTree
     from lumencut.scene.volume import Volume
@@ -31,6 +32,12 @@ if TYPE_CHECKING:
 #: `METHODS` of `lumencut.measuring.stenosis` and `GROUPS` of `lumencut.measuring.measured_vessel`; copied so
 #: that `--help` does not import numpy.
 METHODS, GROUPS = ("nascet", "ecst", "area"), ("carotid", "coronary")
+
+#: How ``lumencut measure`` measures without options, except for what a session file gives.
+_USUAL = {
+    **dict.fromkeys(("fwhm", "wall", "at", "reference", "method", "original", "comparison", "group")),
+    "step": 0.5,
+}
 
 _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
 
@@ -148,7 +155,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     if chosen["at"] is not None and len(vessels) > 1:
         mend = "choose one by --vessel or --path"
         raise click.UsageError(f"--at is a place on one vessel; found {len(vessels)}; {mend}")
-    measured = _measured(voxels, tree, vessels, chosen)
+    measured = measured_vessels(voxels, tree, vessels, chosen)
     for one in measured:
         say(f"{one.name}: {_described(one.profile)}")
         for line in one.lines:
@@ -178,7 +185,7 @@ def _check_places(chosen: dict[str, Any]) -> None:
             raise click.UsageError(f"--{name} grades nothing without a reference; {mend}")
 
 
-def _measured(
+def measured_vessels(
     voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
 ) -> list[MeasuredVessel]:
     """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""
@@ -251,3 +258,14 @@ def _marked(chosen: dict[str, Any]) -> Marked:
         chosen["comparison"],
         chosen["group"],
     )
+
+
+def rim_profiles(
+    chosen: dict[str, Any], value: str | None, voxels: Volume | None, tree: VesselTree
+) -> list[tuple[Profile, tuple[Stenosis, ...]]]:
+    """Measure the shown vessels if a rim or map of a value needs it; return profiles and graded stenoses."""
+    if value is None or voxels is None or (value == "diameter" and not chosen["measured"]):
+        return []
+    vessels = [(str(number), tree[number]) for number in shown_ids(tree, chosen)]
+    measured = measured_vessels(voxels, tree, vessels, {**_USUAL, "centerlines": chosen["centerlines"]})
+    return [(one.profile, () if one.stenosis is None else (one.stenosis,)) for one in measured]

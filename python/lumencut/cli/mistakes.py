@@ -152,6 +152,8 @@ def _idle_rules(settings: Settings) -> Iterator[_Idle]:
         yield ("zone_filter", "depth_leap"), "without the depth filter", "give --depth-filter"
     if not settings.zone_filter:
         yield ("depth_leap",), "without the zone filter", "give --zone-filter"
+    if settings.rim != "diameter":
+        yield ("measured",), "without --rim diameter: other rims always measure", "give --rim diameter"
     if settings.levels == 0:
         yield ("level_distance",), "with --levels 0, which uses only the finest level", "give more levels"
     if not settings.lumen_first:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from lumencut.cli.like import (
     views_of,
     warn_of_vessels,
 )
+from lumencut.cli.measure import rim_profiles
 from lumencut.cli.outputs import name_of, pictures
 from lumencut.cli.report import bar, busy, detail, say, timings, verbose_option
 from lumencut.cli.scene import (
@@ -31,7 +33,7 @@ from lumencut.cli.scene import (
     warn_of_emptiness,
     warn_of_window,
 )
-from lumencut.cli.settings import paper_option, setting_options, settings_from
+from lumencut.cli.settings import paper_option, rim_option, setting_options, settings_from
 
 if TYPE_CHECKING:
     from lumencut.pictures.recipe import Recipe
@@ -79,6 +81,7 @@ HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
 )
 @paper_option
 @setting_options
+@rim_option
 @verbose_option
 def render(
     output: tuple[Path, ...],
@@ -118,7 +121,7 @@ def render(
     check_objects(chosen, output)
     if chosen["values"] and (chosen["annotate"] or chosen["compress"]):
         raise click.UsageError("--values has no labels and is not compressed; leave out these options")
-    renderer, scene = read_scene(files, chosen)
+    renderer, scene = read_scene(files, chosen, partial(rim_profiles, chosen, settings.rim))
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
     cameras = _placed(views, scene, chosen, recipe, is_hanging=hanging is not None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -70,8 +71,15 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
         raise click.UsageError(f"{found}; give CENTERLINES or another --context")
 
 
-def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:
-    """Return a renderer of the files and the vessels that views fit; reject options without effect."""
+def read_scene(
+    files: SceneFiles,
+    chosen: dict[str, Any],
+    profiles_of: Callable[[Volume | None, VesselTree], Iterable[Any]] = lambda _, __: (),
+) -> tuple[Renderer, VesselTree | Volume]:
+    """Return a renderer of the files and the vessels that views fit; reject options without effect.
+
+    `profiles_of` returns the profiles that a rim needs.
+    """
     from lumencut.pictures.renderer import Renderer
 
     voxels, tree = read_files(files, chosen)
@@ -80,9 +88,12 @@ def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, Ves
         return renderer, renderer.scene
     shown, fitted = vessels.chosen_of(tree, chosen)
     # The renderer checks whether the tree fits the volume, and warns if the space looks wrong.
-    renderer = Renderer(voxels, tree, files.device)
+    profiles = profiles_of(voxels, tree)
+    if shown is tree:
+        return Renderer(voxels, tree, files.device, profiles=profiles), fitted
     # The window is always that of the whole tree, so the brightness does not depend on the shown vessels.
-    return (renderer if shown is tree else renderer.with_tree(shown)), fitted
+    whole = Renderer(voxels, tree, files.device)
+    return whole.with_tree(shown, profiles=profiles), fitted
 
 
 def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None, VesselTree | None]:

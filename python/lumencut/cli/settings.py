@@ -72,6 +72,15 @@ settings_option = click.option(
 )
 
 
+rim_option = click.option(
+    "--measured",
+    is_flag=True,
+    help="Measure the vessels to show diameters, instead of showing the radii of CENTERLINES. All other "
+    "values are always measured; narrowing and deviation need a session file as CENTERLINES with a marked "
+    "stenosis.",
+)
+
+
 def setting_options(command: Command) -> Command:
     """Add one option for each field of `Settings`, under its name."""
     names = [*_FIRST, *(name for name in SETTINGS if name not in _FIRST)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,7 @@ import click
 from lumencut.cli import options
 from lumencut.cli.dicom import check_objects, dicom_options, grey_option, is_object, study_of
 from lumencut.cli.labels import check_labels, label_options
+from lumencut.cli.measure import rim_profiles
 from lumencut.cli.parameters import Named, PlaceOnVessel
 from lumencut.cli.report import bar, detail, say, timings, verbose_option
 from lumencut.cli.scene import (
@@ -22,7 +24,7 @@ from lumencut.cli.scene import (
     warn_of_emptiness,
     warn_of_window,
 )
-from lumencut.cli.settings import paper_option, setting_options, settings_from
+from lumencut.cli.settings import paper_option, rim_option, setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
@@ -82,6 +84,7 @@ AXIS_NAMES = ("superior", "up", "right", "direction")
 @grey_option
 @paper_option
 @setting_options
+@rim_option
 @verbose_option
 def turntable(
     output: str,
@@ -118,7 +121,7 @@ def turntable(
     dicom = {**study_of(chosen), **{name: chosen[name] for name in ("grey", "compress")}}
     write = _checked_writer(output, fps, labels | {"dicom": dicom}, is_timed=is_timed)
     _check_turn(view, frames, degrees, axis)
-    renderer, scene = read_scene(files, chosen)
+    renderer, scene = read_scene(files, chosen, partial(rim_profiles, chosen, settings.rim))
     warn_of_window(settings, renderer)
 
     from lumencut.pictures import turntables as library

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from lumencut.errors import MissingPackageError
-from lumencut.notebook.scene import DeviceName
+from lumencut.notebook.scene import DeviceName, Scene
 
 if TYPE_CHECKING:
     from lumencut.notebook.widget import VesselWidget
@@ -24,6 +25,7 @@ def show(
     trace: bool = False,
     linked: bool = True,
     names: bool = True,
+    profiles: Iterable[Any] = (),
     device: DeviceName = "auto",
     **changes: Any,
 ) -> VesselWidget:
@@ -55,6 +57,8 @@ def show(
         Whether to show the picked vessel straightened next to the view, with the section across it.
     names : bool, default True
         Whether to write the names of the vessels into the picture.
+    profiles : iterable of Profile, or of (Profile, iterable of Stenosis), default ()
+        What the setting ``rim`` shows, as for :class:`lumencut.Renderer`.
     device : {"auto", "cpu", "gpu"}, default "auto"
         The device that computes, as for :class:`lumencut.Renderer`.
     **changes
@@ -64,7 +68,7 @@ def show(
     ------
     MissingPackageError
         Without the package anywidget, which the extra ``lumencut[notebook]`` installs.
-    VolumeError, VesselTreeError, CameraError, SettingsError, DeviceError
+    VolumeError, VesselTreeError, CameraError, SettingsError, MeasuringError, DeviceError
         As :class:`lumencut.Renderer` and :meth:`Renderer.render`, whose first picture is made at once.
     """
     try:
@@ -74,5 +78,6 @@ def show(
         raise MissingPackageError("show", f"no package {error.name}", "the extra [notebook]", mend) from error
     from lumencut.notebook.first_view import FirstView
 
-    view = FirstView.of(volume, tree, camera, settings, size, device, changes, is_traced=trace)
+    scene = Scene(volume, tree, device, profiles)
+    view = FirstView.of(scene, camera, settings, size, changes, is_traced=trace)
     return VesselWidget(view, trace=trace, linked=linked, names=names)

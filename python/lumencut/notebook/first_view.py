@@ -8,10 +8,9 @@ from typing import Any
 
 from lumencut.base.checks import integers
 from lumencut.errors import CameraError, SettingsError
-from lumencut.notebook.scene import DeviceName, Scene
+from lumencut.notebook.scene import Scene
 from lumencut.scene.camera import Camera
 from lumencut.scene.settings import Settings
-from lumencut.scene.vessel_tree import VesselTree
 
 #: Longest side of a picture (pixels): larger than a screen, and accepted by browsers.
 MOST_PIXELS = 4096
@@ -28,19 +27,16 @@ class FirstView:
     @classmethod
     def of(
         cls,
-        volume: Any,
-        tree: VesselTree | None,
+        scene: Scene,
         camera: Camera | None,
         settings: Settings | None,
         size: tuple[int, int],
-        device: DeviceName,
         changes: Mapping[str, Any],
         *,
         is_traced: bool,
     ) -> FirstView:
         """Return the view of the arguments of :func:`lumencut.show`, with the same errors."""
         chosen = _changed(settings, changes, is_traced=is_traced)
-        scene = Scene(volume, tree, device)
         if camera is None:
             camera = Camera.anterior(scene.renderer.scene, checked_size(size))
         return cls(scene, checked_camera(camera), chosen)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -51,18 +51,26 @@ class Scene:
         Its centerlines.
     device : {"auto", "cpu", "gpu"}
         The device that computes.
+    profiles : iterable of Profile, or of (Profile, iterable of Stenosis), default ()
+        What the setting ``rim`` shows.
 
     Raises
     ------
-    VolumeError, VesselTreeError, SettingsError, DeviceError
+    VolumeError, VesselTreeError, SettingsError, MeasuringError, DeviceError
         As :class:`lumencut.Renderer`, and for no volume.
     """
 
-    def __init__(self, volume: Any, tree: VesselTree | None, device: DeviceName) -> None:
+    def __init__(
+        self,
+        volume: Any,
+        tree: VesselTree | None,
+        device: DeviceName,
+        profiles: Iterable[Any] = (),
+    ) -> None:
         if volume is None:
             raise VolumeError("volume of the notebook", "None", "a Volume, such as read_volume returns")
         self.device: DeviceName = device
-        self._use(Renderer(volume, tree, device))
+        self._use(Renderer(volume, tree, device, profiles=profiles))
 
     def _use(self, renderer: Renderer) -> None:
         assert renderer.volume is not None

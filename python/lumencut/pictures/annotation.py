@@ -1,4 +1,4 @@
-"""Labels on a picture: the sides of the patient, the view, the window, a scale bar and the vessels' names."""
+"""Labels on a picture: sides of the patient, view, window, scale bar, colours of a rim, vessels' names."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.pictures.lettering import Sheet
+from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
+from lumencut.pictures.value_colours import write_legend
 from lumencut.pictures.vessel_labels import write_vessel_names
 from lumencut.scene.orientation import edges, view_name
 
@@ -16,9 +17,6 @@ if TYPE_CHECKING:
     from lumencut.pictures.frame_source import FrameSource
     from lumencut.scene.camera import Camera
     from lumencut.scene.window import Window
-
-#: Pictures whose shorter side is smaller than this (pixels) get no labels.
-SMALLEST_SIDE = 200
 
 
 def annotated(
@@ -32,6 +30,8 @@ def annotated(
         _write_sides(sheet, edges(camera))
     _write_words(sheet, camera, source)
     _write_scale(sheet, camera, source)
+    if source.legend is not None:
+        write_legend(sheet, source.legend)
     if vessel_names:
         write_vessel_names(sheet, camera, source.vessel_ends)
     return sheet.pixels()

@@ -9,8 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.pictures.annotation import SMALLEST_SIDE
-from lumencut.pictures.lettering import Sheet, writable
+from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet, writable
 
 Picture: TypeAlias = npt.NDArray[np.uint8]
 

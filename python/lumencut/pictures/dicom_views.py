@@ -62,6 +62,7 @@ def view_picture(
         f"{_NAMES.get(method, method.upper() + ' of the volume')} {written_by()} View {view}; "
         f"camera {json.dumps(_rounded(camera_parameters(camera)))}; {changed(settings)}"
     )
+    words += "" if source.legend is None else f". Colours: {source.legend}"
     return Picture(
         image,
         method.upper() if not has_cut else method,

@@ -211,9 +211,9 @@ class Frame(KeepsReadOnly):
         The edges are labelled with the sides of the patient: R, L, A, P, S and I for right, left,
         anterior, posterior, superior and inferior. Oblique views have several letters, the main side first.
         The upper left corner shows the view and the window (W width, L level), the lower left one a scale bar
-        of a round length in mm. If the source of the volume states no orientation
-        (`Volume.states_orientation`) or no spacing (`Volume.states_spacing`), a text replaces letters and
-        view, or the bar. Pictures with a side below 200 pixels get no labels.
+        of a round length in mm, the right edge the colours of a rim. If the source of the volume states no
+        orientation (`Volume.states_orientation`) or no spacing (`Volume.states_spacing`), a text replaces
+        letters and view, or the bar. Pictures with a side below 200 pixels get no labels.
 
         Parameters
         ----------

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 from lumencut.base.pickles import by_name
+from lumencut.pictures.value_colours import Legend
 from lumencut.scene.settings import Settings
 from lumencut.scene.study import Origin
 from lumencut.scene.transfer import TransferFunction
@@ -40,6 +41,8 @@ class FrameSource:
         The method: ``"csr"``, ``"mpcpr"`` or ``"cr"``.
     origin : Origin or None
         The scan in the form that DICOM objects need; None if the source was created by hand.
+    legend : Legend or None
+        What the colours of the rim mean; None without a rim.
     """
 
     settings: Settings
@@ -50,6 +53,7 @@ class FrameSource:
     vessel_ends: tuple[VesselEnd, ...]
     method: str = "csr"
     origin: Origin | None = None
+    legend: Legend | None = None
 
 
 def frame_source(
@@ -58,6 +62,7 @@ def frame_source(
     tree: VesselTree | None,
     ends: tuple[VesselEnd, ...],
     method: str = "csr",
+    legend: Legend | None = None,
 ) -> FrameSource:
     """Return the source of a frame with these settings and windows; `ends` are those of the tree."""
     window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
@@ -71,6 +76,7 @@ def frame_source(
         ends,
         method,
         volume._origin,
+        legend,
     )
 
 

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 #: The left, top, right and bottom edge of a rectangle (pixels).
 Box: TypeAlias = tuple[float, float, float, float]
 
+#: Pictures whose shorter side is smaller than this (pixels) get no labels.
+SMALLEST_SIDE = 200
+
 _LIGHT, _DARK = (255, 255, 255, 255), (0, 0, 0, 255)
 
 #: Height of letters (pixels): a fortieth of the shorter side of the picture, within these limits.
@@ -117,6 +120,14 @@ class Sheet:
         """Fill a box with a colour, such as one that a legend explains."""
         self.taken.append(box)
         self._draw.rectangle(box, fill=(*color, 255), outline=_LIGHT)
+
+    def paste(self, pixels: npt.NDArray[np.uint8], corner: tuple[int, int]) -> None:
+        """Put RGBA pixels (H, W, 4) at the column and row of their upper left corner."""
+        from PIL import Image
+
+        (left, top), (height, width) = corner, pixels.shape[:2]
+        self.taken.append((left, top, left + width, top + height))
+        self._picture.paste(Image.fromarray(pixels), corner)
 
     def arc(self, center: tuple[float, float], radius: float, start: float, end: float) -> None:
         """Draw an arc about a point between two angles (radians, counter-clockwise from the right)."""

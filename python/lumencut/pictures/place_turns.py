@@ -11,8 +11,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.errors import VolumeError
-from lumencut.pictures.annotation import SMALLEST_SIDE
-from lumencut.pictures.lettering import Sheet
+from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
 from lumencut.pictures.turntables import turntable
 
 if TYPE_CHECKING:

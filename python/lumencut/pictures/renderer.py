@@ -10,6 +10,7 @@ from typing import Any, Literal
 from lumencut import _lumencut
 from lumencut.base.checks import callback, choice
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.pictures.along_vessels import AlongVessels
 from lumencut.pictures.frame import BLEND, IMAGES, Frame
 from lumencut.pictures.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.scene.camera import Camera
@@ -51,18 +52,27 @@ class Renderer:
         CPU if there is none; if the GPU fails, or lacks memory for the scene, the CPU renders that view and
         all further ones, with one :class:`DeviceWarning`. ``"gpu"`` uses the first GPU, even a software one,
         and raises its errors. Pictures differ only by rounding.
+    profiles : iterable of Profile, or of (Profile, iterable of Stenosis), default ()
+        What the setting ``rim`` shows: profiles of vessels of the tree, with their graded stenoses.
 
     Raises
     ------
     VolumeError, VesselTreeError, SettingsError
         For a volume, tree or device of another kind, neither a volume nor a tree, or a tree that lies wholly
         outside the volume.
+    MeasuringError
+        For profiles of other vessels.
     DeviceError
         For the device ``"gpu"`` where there is no GPU, or none that can be used.
     """
 
     def __init__(
-        self, volume: Any, tree: VesselTree | None = None, device: Literal["auto", "cpu", "gpu"] = "auto"
+        self,
+        volume: Any,
+        tree: VesselTree | None = None,
+        device: Literal["auto", "cpu", "gpu"] = "auto",
+        *,
+        profiles: Iterable[Any] = (),
     ) -> None:
         _check_kind(tree)
         choice(SettingsError, "device", device, ("auto", "cpu", "gpu"))
@@ -70,13 +80,15 @@ class Renderer:
             from lumencut.scene.images import as_volume
 
             volume = as_volume(volume)
-        self._set_scene(volume, tree)
+        self._set_scene(volume, tree, profiles)
         self._windows = SceneWindows(volume, tree)
         if device != "cpu":
             look_for_no_display()
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
 
-    def _set_scene(self, volume: Volume | None, tree: VesselTree | None) -> None:
+    def _set_scene(
+        self, volume: Volume | None, tree: VesselTree | None, profiles: Iterable[Any] = ()
+    ) -> None:
         """Set the scene; it must not be empty, and tree and volume must overlap."""
         scene = volume if tree is None else tree
         if scene is None:
@@ -90,13 +102,14 @@ class Renderer:
 
             check_lines_once(tree[:])
         self._volume, self._tree, self._scene = volume, tree, scene
+        self._along = AlongVessels(tree, profiles)
 
-    def with_tree(self, tree: VesselTree | None) -> Renderer:
+    def with_tree(self, tree: VesselTree | None, *, profiles: Iterable[Any] = ()) -> Renderer:
         """Return a renderer of the same volume on the same device with another tree, or without one.
 
         Data of the volume are reused: on a GPU its voxels are not sent again, and if the settings name no
         window, that of this renderer is used, so that brightness does not change with the tree. Both
-        renderers can be used; their views take turns.
+        renderers can be used; their views take turns. `profiles` are those of the other tree.
 
         Raises
         ------
@@ -107,7 +120,7 @@ class Renderer:
         """
         _check_kind(tree)
         other = object.__new__(Renderer)
-        other._set_scene(self._volume, tree)
+        other._set_scene(self._volume, tree, profiles)
         return self._sharing(other)
 
     def _with_part(self, vessels: Iterable[Vessel]) -> Renderer:
@@ -115,6 +128,7 @@ class Renderer:
         tree = VesselTree(vessels)
         other = object.__new__(Renderer)
         other._volume, other._tree, other._scene = self._volume, tree, tree
+        other._along = AlongVessels(tree, ())
         return self._sharing(other)
 
     def _sharing(self, other: Renderer) -> Renderer:
@@ -181,6 +195,8 @@ class Renderer:
         SettingsError
             For an image of another name, without a tree for settings without a context, or for a
             ``context_step`` too small for the volume.
+        MeasuringError
+            For a rim of values that the vessels do not have.
         DeviceError
             With the device ``"gpu"`` where the GPU fails or has no room; a further view starts it again.
         KeyboardInterrupt
@@ -198,8 +214,9 @@ class Renderer:
         settings, source = self._with_source(settings, asked)
         names = asked if asked is not None else self._at_once(settings)
         callback(SettingsError, "progress", progress)
+        along = self._along.of_rim(settings)
         core, volume = self._parts.shown(self._volume, self._tree is not None, camera, settings)
-        buffers = core.render(volume, camera, checked(settings), names, progress)
+        buffers = core.render(volume, camera, checked(settings), names, progress, None, along)
         return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(
@@ -277,7 +294,8 @@ class Renderer:
         if self._volume is None or (asked is not None and not _WINDOWED.intersection(asked)):
             return settings, None
         used = self.windowed(settings)
-        return used, frame_source(used, self._volume, self._tree, self._vessel_ends, method)
+        legend = self._along.legend(settings) if method == "csr" else None
+        return used, frame_source(used, self._volume, self._tree, self._vessel_ends, method, legend)
 
     def _at_once(self, settings: Settings) -> list[str] | None:
         """Return the images to compute if none are named; None means all."""
@@ -354,32 +372,6 @@ def check_renderer(renderer: Any) -> None:
     """Reject anything but a renderer."""
     if not isinstance(renderer, Renderer):
         raise SettingsError("renderer", type(renderer).__name__, "a Renderer")
-
-
-def render(
-    volume: Any,
-    tree: VesselTree | None = None,
-    camera: Camera | None = None,
-    settings: Settings | None = None,
-    *,
-    progress: Callable[[int, int], object] | None = None,
-) -> Frame:
-    """Return the picture of one view of an angiography and its centerlines.
-
-    Parameters
-    ----------
-    volume : Volume, an image of SimpleITK, itk, nibabel or vtk, or datasets of pydicom
-        The angiography.
-    tree : VesselTree, optional
-        Its centerlines; the context alone is shown by default.
-    camera : Camera, optional
-        The view; from the front, fitted to the tree or else the volume by default.
-    settings : Settings, optional
-        The settings; by default with windows from the data.
-    progress : callable, optional
-        Called with (done, total) while it renders, as by :meth:`Renderer.render`.
-    """
-    return Renderer(volume, tree).render(camera, settings, progress=progress)
 
 
 def _check_kind(tree: Any) -> None:

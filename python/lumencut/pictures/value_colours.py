@@ -3,21 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
+from lumencut.base.pickles import by_name
+
+if TYPE_CHECKING:
+    from lumencut.pictures.lettering import Sheet
+
+
+@by_name
+@dataclass(frozen=True)
+class Legend:
+    """What colours mean.
+
+    Attributes
+    ----------
+    words, unit : str
+        The quantity in words, which may be empty, and its unit.
+    low, high : float
+        The values of the first and of the last colour.
+    colours : str
+        The name of the colours.
+    """
+
+    words: str
+    unit: str
+    low: float
+    high: float
+    colours: str
+
+    def __str__(self) -> str:
+        """Return the quantity and its range."""
+        return f"{self.words} from {self.low:g} to {self.high:g} {self.unit}"
 
 
 def coloured(
-    value: npt.NDArray[np.float32], ends: tuple[float, float], *, grey: bool = False
+    value: npt.NDArray[np.float32], ends: tuple[float, float], colours: str = "viridis"
 ) -> npt.NDArray[np.uint8]:
     """Return values (H, W) as RGBA, uint8, shape (H, W, 4), coloured from the first colour to the last.
 
     Values that are not finite are transparent.
     """
-    return _lumencut.coloured(value, ends, grey)
+    return _lumencut.coloured(value, ends, colours)
 
 
 def with_scale(
@@ -36,8 +68,7 @@ def with_scale(
     scale : (float, float, str), optional
         The values at both ends of the colours, and their unit.
     """
-    from lumencut.pictures.annotation import SMALLEST_SIDE
-    from lumencut.pictures.lettering import Sheet
+    from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
 
     if min(image.shape[:2]) < SMALLEST_SIDE:
         return image.copy()
@@ -45,16 +76,24 @@ def with_scale(
     for name, (column, row) in places:
         if np.isfinite([column, row]).all():
             sheet.write(name, (float(column), float(row)), "mm")
-    if scale is None:
-        return sheet.pixels()
-    low, high, unit = scale
+    if scale is not None:
+        low, high, unit = scale
+        write_legend(sheet, Legend("", unit, low, high, "viridis"))
+    return sheet.pixels()
+
+
+def write_legend(sheet: Sheet, legend: Legend) -> None:
+    """Draw a colour scale at the right edge, with the quantity and its values at both ends."""
     width, height = sheet.size
     bar = max(8, sheet.line_height // 2)
-    top, bottom = height // 3, 2 * height // 3
+    # Leaves the middle of the edge to the letter of the patient's side.
+    top, bottom = (height // 3, 2 * height // 3) if not legend.words else (height // 8, 3 * height // 8)
     right = width - sheet.margin
-    sheet.write(f"{high:g} {unit}", (right, top - sheet.margin // 2), "rd")
-    sheet.write(f"{low:g} {unit}", (right, bottom + sheet.margin // 2), "ra")
-    labelled = sheet.pixels()
-    ramp = np.linspace(high, low, bottom - top, dtype=np.float32)[:, None].repeat(bar, axis=1)
-    labelled[top:bottom, right - bar : right] = coloured(ramp, (low, high))
-    return labelled
+    above = top - sheet.margin // 2
+    sheet.write(f"{legend.high:g} {legend.unit}", (right, above), "rd")
+    if legend.words:
+        sheet.write(legend.words, (right, above - sheet.line_height), "rd")
+    sheet.write(f"{legend.low:g} {legend.unit}", (right, bottom + sheet.margin // 2), "ra")
+    ends = legend.low, legend.high
+    ramp = np.linspace(legend.high, legend.low, bottom - top, dtype=np.float32)[:, None]
+    sheet.paste(coloured(ramp.repeat(bar, axis=1), ends, legend.colours), (right - bar, top))

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
+    from lumencut.reformations.network_map import NetworkMap, network
     from lumencut.reformations.planar_reformation import PlanarReformation, cpr
     from lumencut.reformations.reformation import Reformation
     from lumencut.reformations.spiral_reformation import SpiralReformation, spiral
@@ -28,6 +29,7 @@ __all__ = [
     "FeatureAggregation",
     "FlattenedSurface",
     "LumenMap",
+    "NetworkMap",
     "Ostium",
     "PlanarReformation",
     "Reformation",
@@ -42,6 +44,7 @@ __all__ = [
     "flatten",
     "lumen_map",
     "mpcpr",
+    "network",
     "spiral",
     "straightened_volume",
     "uncurl",

@@ -73,8 +73,7 @@ class SpiralReformation(Reformation):
 
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them, and with a ruler in mm²."""
-        from lumencut.pictures.annotation import SMALLEST_SIDE
-        from lumencut.pictures.lettering import Sheet
+        from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
 
         image = super().annotated(vessel_names=vessel_names)
         volume = self._renderer.volume

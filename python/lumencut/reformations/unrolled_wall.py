@@ -214,7 +214,7 @@ class LumenMap(Reformation):
         if self.mode == "wall":
             image: npt.NDArray[np.uint8] = self._look(self.settings, "image")["image"].copy()
         else:
-            image = coloured(self.value, self._scale, grey=self.mode == "shaded")
+            image = coloured(self.value, self._scale, "grey" if self.mode == "shaded" else "viridis")
         if self.overlap:
             for repeated in (image[:, : self.overlap, :3], image[:, -self.overlap :, :3]):
                 repeated[:] = np.round(repeated * _DIMMED)

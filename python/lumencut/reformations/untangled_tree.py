@@ -114,8 +114,7 @@ class UntangledTree(Reformation):
         The labels are those of every reformation, an arc with degrees where a branch is turned by more than
         5°, the names of vessels (or their ids) where they end, and the same letter at both places of a cycle.
         """
-        from lumencut.pictures.annotation import SMALLEST_SIDE
-        from lumencut.pictures.lettering import Sheet
+        from lumencut.pictures.lettering import SMALLEST_SIDE, Sheet
         from lumencut.pictures.vessel_labels import write_names
 
         image = super().annotated(vessel_names=vessel_names)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar
 
 import numpy.typing as npt
 
@@ -16,6 +17,8 @@ from lumencut.reformations.untangled_tree import UntangledTree
 from lumencut.scene.camera import Camera
 from lumencut.scene.settings import Settings
 from lumencut.scene.vessel_tree import VesselTree
+
+_Laid = TypeVar("_Laid", bound=UntangledTree)
 
 
 def untangled(
@@ -111,17 +114,22 @@ class UntangledRequest(ReformationRequest):
 
     def of(self, renderer: Renderer) -> UntangledTree:
         """Return the untangled tree of a renderer, in its window."""
-        volume, tree = renderer.volume, renderer.tree
-        if volume is None or tree is None:
-            missing = "a volume" if volume is None else "a tree"
+        if renderer.volume is None or renderer.tree is None:
+            missing = "a volume" if renderer.volume is None else "a tree"
             raise VolumeError("renderer of the untangled CPR", f"none with {missing}", "a volume and a tree")
+        return self.laid_out(renderer, renderer.tree, pixel_side(renderer.volume), UntangledTree)
+
+    def laid_out(
+        self, renderer: Renderer, tree: VesselTree, side: float, kind: Callable[..., _Laid]
+    ) -> _Laid:
+        """Return the untangled tree as an object of a kind; `side` is the default side of a pixel (mm)."""
         if not isinstance(self.camera, (Camera, type(None))):
             raise CameraError("camera", type(self.camera).__name__, "a Camera or None")
         view = Camera.anterior(tree) if self.camera is None else self.camera
         given = flat_settings(self.settings, self.slab)
-        asked = self.checked(pixel_spacing=pixel_side(volume))
+        asked = self.checked(pixel_spacing=side)
         *lengths, begin = asked.values()
         arrays = [(vessel.points, vessel.radius) for vessel in tree]
         core = _lumencut.Untangled(arrays, view, (*lengths, given.unknown_radius), begin)
         placed = {"view": list(view.direction), "up": list(view.up)}
-        return UntangledTree(renderer, core, tree, given, {**placed, **asked})
+        return kind(renderer, core, tree, given, {**placed, **asked})

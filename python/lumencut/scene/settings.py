@@ -18,6 +18,7 @@ from lumencut.scene.window import Opacity, Window
 DistanceRuleName: TypeAlias = Literal["local", "whole curve"]
 LevelChoiceName: TypeAlias = Literal["own", "nearest"]
 SilhouetteRuleName: TypeAlias = Literal["leap", "gradient"]
+RimName: TypeAlias = Literal["diameter", "narrowing", "deviation", "uncertainty"]
 TreeName: TypeAlias = Literal["hidden", "wireframe"]
 ContextName: TypeAlias = Literal["mida", "dvr", "mip", "minip", "average"]
 ContextFromName: TypeAlias = Literal["cut", "whole"]
@@ -70,7 +71,7 @@ class Settings(CheckedSettings):
     edge_samples : int, 1 to 4, default 3
         Average N × N samples per pixel at silhouettes of the rule ``leap``, unless ``samples`` exceeds 1
         (count, 1 to 4).
-    window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
+    window : Window, or a name of `Window.named`, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
     opacity : Opacity, optional
@@ -93,6 +94,11 @@ class Settings(CheckedSettings):
         Darken the cut where it lies deeper than around it (number, 0 to 1), but not lumen and wall.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
+    rim : {"diameter", "narrowing", "deviation", "uncertainty"} or None, optional
+        Colour a rim around the vessels by values along them (name): ``diameter`` (mm), ``narrowing`` of
+        graded stenoses (%), ``deviation`` from their reference (mm) or ``uncertainty`` of the diameter
+        (mm). Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from
+        radii; all else needs profiles. Labels of the picture explain the colours. If not given: no rim.
     tree : {"hidden", "wireframe"}, default "hidden"
         Vessel walls over the picture (name): ``hidden``, or ``wireframe`` for rings across and lines along
         the vessels. Wires show the radii of the centerlines, ``unknown_radius`` where there is none; only
@@ -121,7 +127,7 @@ class Settings(CheckedSettings):
         largest, smallest and mean value along each ray.
     context_gamma : float, -1 to 1, default 0
         Blend for ``mida`` (number, -1 to 1): -1 is ``dvr``, 0 ``mida``, 1 ``mip``.
-    context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent", "sac"}, optional
+    context_window : Window, or a name of `Window.named`, optional
         Intensities that the context maps to 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         ``mida`` scales its differences by it; ``minip`` and ``average`` show it from black to white; named
         transfer functions lie within it. If not given, it comes from the data whatever ``window`` is:
@@ -179,6 +185,7 @@ class Settings(CheckedSettings):
     far_rim: float = 0.3
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
+    rim: RimName | None = None
     tree: TreeName = "hidden"
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None

@@ -43,7 +43,6 @@ _EXAMPLES = {
     "opacity": "{ transparent = 50.0, opaque = 150.0 }",
     "slab": '{ thickness = 4.0, mode = "mean" }',
     "focus": "{ margin = 2.0, fade = 6.0 }",
-    "choice": '"whole"',
     "transfer": '"angio"',
 }
 
@@ -54,7 +53,8 @@ def settings_text(settings: Any) -> str:
     for name, setting in _lumencut.SETTINGS.items():
         value = getattr(settings, name)
         if value is None and setting.default is None:
-            line = f"# {name} = {_EXAMPLES[setting.kind]}"
+            example = f'"{setting.choices[-1]}"' if setting.kind == "choice" else _EXAMPLES[setting.kind]
+            line = f"# {name} = {example}"
         else:
             line = f"{name} = {_line(setting, value)}"
         blocks.append("\n".join([*_comment(setting), line]))

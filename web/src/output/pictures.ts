@@ -2,8 +2,9 @@
 
 import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
-import type { Camera, PictureLabels } from '../core/messages';
+import type { Camera, Legend, PictureLabels } from '../core/messages';
 import { negate } from '../core/vectors';
+import { rimLegend } from '../measure/rim';
 import { showMessage } from '../state/message';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -34,6 +35,10 @@ export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasEl
     // On high-resolution screens the picture has several pixels per CSS pixel.
     const density = canvas.height / camera.size[1];
     drawLabels(context, await labelsOf(camera, density), density);
+    const legend = await rimLegend().catch(() => null);
+    if (legend) {
+      drawLegend(context, legend, density);
+    }
   }
   return canvas;
 }
@@ -72,6 +77,22 @@ function drawLabels(
     context.fillRect(edge, height - edge, bar.pixels, 2 * density);
     outlined(context, bar.words, edge + bar.pixels / 2, height - 2 * edge, 'center');
   }
+}
+
+/** Draws the colours of a rim at the right edge, with the values at both ends. */
+function drawLegend(context: CanvasRenderingContext2D, legend: Legend, density: number): void {
+  const [width, height] = [context.canvas.width, context.canvas.height];
+  const [edge, top, bottom] = [14 * density, height / 6, height / 3];
+  const colours = context.createLinearGradient(0, bottom, 0, top);
+  for (const [n, [red, green, blue]] of legend.colours.entries()) {
+    colours.addColorStop(n / (legend.colours.length - 1), `rgb(${red} ${green} ${blue})`);
+  }
+  context.fillStyle = colours;
+  context.fillRect(width - 2 * edge, top, edge, bottom - top);
+  const right = width - edge;
+  outlined(context, legend.words, right, top - 2 * edge, 'right');
+  outlined(context, `${legend.high} ${legend.unit}`, right, top - 0.7 * edge, 'right');
+  outlined(context, `${legend.low} ${legend.unit}`, right, bottom + 0.7 * edge, 'right');
 }
 
 function outlined(

@@ -10,6 +10,7 @@ export const REFORMATIONS: readonly (readonly [ReformationKind, string])[] = [
   ['spiral', 'Spiral CPR'],
   ['map', 'Lumen map'],
   ['untangled', 'Untangled CPR'],
+  ['network', 'Network map'],
 ];
 
 export const reformationKind = signal<ReformationKind>('cpr');
@@ -47,6 +48,7 @@ export function reformationOf(kind: Reformation['kind'], chosen: Chosen): Reform
   }
   switch (kind) {
     case 'untangled':
+    case 'network':
       return side && { kind, side };
     case 'uncurl':
       return side && { kind, vessel, side, amount };

@@ -11,6 +11,7 @@ import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
 import { placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
+import { profiles } from '../state/profiles';
 import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -53,7 +54,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
         return NO_PICTURE();
       }
     },
-    [text, window, store.report.value?.vessels],
+    [text, window, store.report.value?.vessels, kind === 'network' && profiles.value],
   );
   const [left, top] = size && shown ? begin(size, shown.size) : [0, 0];
   const hair = useHair(shown);
@@ -81,7 +82,11 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
               </b>
             ))}
           {text && size && shown && (
-            <NamedScale size={size} spacing={shown.pixel_spacing} isNamed={kind !== 'untangled'} />
+            <NamedScale
+              size={size}
+              spacing={shown.pixel_spacing}
+              isNamed={kind !== 'untangled' && kind !== 'network'}
+            />
           )}
           {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
         </FlatPicture>
@@ -91,7 +96,9 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
         {shown && (
           <button
             type="button"
-            onClick={() => attempt(() => savePane('straightened', `${kind}-cpr`, shown.words))}
+            onClick={() =>
+              attempt(() => savePane('straightened', kind === 'network' ? kind : `${kind}-cpr`, shown.words))
+            }
           >
             Save picture
           </button>

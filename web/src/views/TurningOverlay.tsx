@@ -3,6 +3,7 @@ import { pixelOf, rightOf } from '../core/camera';
 import { negate } from '../core/vectors';
 import { TurningMeasures } from '../measure/MeasureOverlay';
 import { PlaceTurnBar } from '../measure/PlaceTurnBar';
+import { RimLegend } from '../measure/RimLegend';
 import { assumeOneMillimetre, hasMillimetres } from '../state/millimetres';
 import { camera, crossHair, report, states } from '../state/store';
 import { Cube } from './Cube';
@@ -29,6 +30,7 @@ export function TurningOverlay() {
         spacing={seen.pixel_spacing}
       />
       <TurningMeasures camera={seen} />
+      <RimLegend />
       <PickedOutline projection={ofCamera(seen, volume)} />
       <TracedOverlay projection={ofCamera(seen, volume)} />
       {place && <HairLines at={place} />}

@@ -8,6 +8,7 @@ import { cross } from '../core/vectors';
 import type { Action } from '../input/bindings';
 import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
+import { withRim } from '../measure/rim';
 import { usePaneSize } from '../pane/pane-size';
 import * as actions from '../state/actions';
 import { everyFrame } from '../state/cine';
@@ -110,7 +111,7 @@ function wantedView(): View | null {
         method: 'csr',
         settings: { ...settings, ...PROJECTED, window: settings.context_window ?? store.window_.value },
       }
-    : { camera, method: store.method.value, settings };
+    : withRim({ camera, method: store.method.value, settings });
 }
 
 /** Maximum intensity projection of the whole scan: a slab of 1000 mm. */

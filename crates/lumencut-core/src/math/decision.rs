@@ -72,6 +72,12 @@ impl Decision {
 }
 
 impl Decision {
+    /// Arc length and distance beyond the wall, as the stage `depth` stores them.
+    #[inline(always)]
+    pub(crate) fn foot(&self, l: usize) -> [f32; 4] {
+        [self.arc_length[l], self.beyond_wall[l], 0.0, 0.0]
+    }
+
     /// The radius as a sheet stores it: negative outside the lumen.
     #[inline(always)]
     pub(crate) fn sheet_radius(&self, l: usize) -> f32 {

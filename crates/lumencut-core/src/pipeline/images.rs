@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::frame::{Frame, Timing};
 use crate::geometry::Geometry;
-use crate::stages::depth::{Blend, Sheet};
+use crate::stages::depth::{Blend, Foot, Sheet};
 use crate::stages::focus::Shares;
 
 /// The images by their names in the table of stages; a missing image is empty.
@@ -16,8 +16,10 @@ pub struct Images {
     pub vessel: Vec<i32>,
     pub sheet: Vec<Sheet>,
     pub blend: Vec<Blend>,
+    pub foot: Vec<Foot>,
     pub leap: Vec<u32>,
     pub focus: Vec<Shares>,
+    pub rim: Vec<[u8; 4]>,
     pub value: Vec<f32>,
     pub strength: Vec<f32>,
     pub start: Vec<f32>,
@@ -31,8 +33,8 @@ impl Images {
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };
-        let Self { vessel, blend, leap, focus, distance, .. } = self;
-        Frame { vessel, blend, leap, focus, distance, timings, ..Frame::of(geometry) }
+        let Self { vessel, blend, leap, focus, rim, distance, .. } = self;
+        Frame { vessel, blend, leap, focus, rim, distance, timings, ..Frame::of(geometry) }
     }
 
     pub(super) fn into_frame(self, mut frame: Frame, timings: Vec<Timing>) -> Frame {

@@ -19,6 +19,7 @@ use crate::stages::far_rim::{FarRimParameters, far_rim};
 use crate::stages::focus::{FocusParameters, Shares, focus};
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::occlusion::{OcclusionParameters, occlusion};
+use crate::stages::rim::{RimColors, RimParameters, rim};
 use crate::stages::silhouette::{FARTHEST_LEAP, SilhouetteParameters, silhouette, silhouette_of_leaps};
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
@@ -33,6 +34,8 @@ pub struct CutSurfacePass<'a> {
     pub has_sheet: bool,
     pub wanted: ImageSet,
     pub settings: &'a Settings,
+    /// Colours along the vessels, for the rim.
+    pub colors: Option<&'a RimColors>,
 }
 
 impl CutSurfacePass<'_> {
@@ -52,8 +55,11 @@ impl CutSurfacePass<'_> {
                 if Stage::has_blend(self.wanted) {
                     images.blend = vec![[0.0; 4]; pixels];
                 }
-                let Images { unfiltered_depth, vessel, sheet, blend, .. } = images;
-                let written = DepthImages { depth: unfiltered_depth, vessel, sheet, blend };
+                if Stage::has_foot(self.settings, self.wanted) {
+                    images.foot = vec![[0.0; 4]; pixels];
+                }
+                let Images { unfiltered_depth, vessel, sheet, blend, foot, .. } = images;
+                let written = DepthImages { depth: unfiltered_depth, vessel, sheet, blend, foot };
                 depth(work, &self.surface, &images.distance, written)
             }
             Stage::Leap => {
@@ -64,6 +70,7 @@ impl CutSurfacePass<'_> {
             }
             Stage::DepthFilter => self.depth_filter(images),
             Stage::Focus => self.focus(images),
+            Stage::Rim => self.rim(images),
             Stage::Occlusion => {
                 let Images { unfiltered_depth, depth, focus, .. } = images;
                 let depth = if depth.is_empty() { unfiltered_depth } else { depth };
@@ -105,6 +112,18 @@ impl CutSurfacePass<'_> {
         focus(&self.work, &self.surface, &parameters, (leap, reach), &mut images.focus)
     }
 
+    fn rim(&self, images: &mut Images) -> Result<()> {
+        let Some(colors) = self.colors else { return Ok(()) };
+        let parameters = RimParameters::new(self.settings, self.surface.camera());
+        let strips = colors.strips(self.surface.level(0));
+        images.rim = vec![[0; 4]; self.work.pixels()];
+        let along = (&strips[..], colors.colors());
+        let places = (&images.foot[..], &images.vessel[..]);
+        rim(&self.work, &parameters, along, places, &mut images.rim)?;
+        images.foot = Vec::new();
+        Ok(())
+    }
+
     fn depth_filter(&self, images: &mut Images) -> Result<()> {
         let parameters = DepthFilterParameters::of(self.settings);
         let zones = self.settings.zone_filter.then_some(&images.vessel[..]);
@@ -129,6 +148,7 @@ pub struct LookPass<'a> {
     pub vessel: &'a [i32],
     pub leap: &'a [u32],
     pub focus: &'a [Shares],
+    pub rim: &'a [[u8; 4]],
     pub wanted: ImageSet,
 }
 
@@ -149,6 +169,7 @@ impl LookPass<'_> {
             | Stage::Leap
             | Stage::DepthFilter
             | Stage::Focus
+            | Stage::Rim
             | Stage::Occlusion
             | Stage::FarRim => Ok(()),
         }
@@ -239,6 +260,7 @@ impl LookPass<'_> {
             value: if images.value.is_empty() { &nothing } else { &images.value },
             strength: Some(&images.strength[..]).filter(|strength| !strength.is_empty()),
             focus: self.focus(),
+            rim: Some(self.rim).filter(|rim| !rim.is_empty()),
             context: Some(&images.gathered[..]).filter(|gathered| !gathered.is_empty()),
         };
         images.picture = vec![[0; 4]; pixels];

@@ -25,10 +25,11 @@ impl Settings {
         Ok(Cow::Owned(Self { silhouettes: true, ..self.clone() }))
     }
 
-    /// The name of the setting that highlights vessels or their surroundings, and words for it.
+    /// The name of the setting that highlights vessels, their walls or surroundings, and words for it.
     pub fn focused(&self) -> Option<(&'static str, &'static str)> {
         let chosen = (!self.focus_vessels.is_empty()).then_some(("focus_vessels", "chosen vessels"));
-        self.focus.map(|_| ("focus", "a focus")).or(chosen)
+        let rim = self.rim.map(|_| ("rim", "a rim"));
+        self.focus.map(|_| ("focus", "a focus")).or(chosen).or(rim)
     }
 
     /// Rejects chosen vessels without `lumen_first`, since lumen and wall then have no tiers.
@@ -37,6 +38,16 @@ impl Settings {
             let found = "the whole curve with lumen_first";
             return Err(Error::new(ErrorKind::Settings, "distance_rule", found, "the cost of the paper")
                 .mend("use the paper's rules, or set lumen_first to False"));
+        }
+        if self.rim.is_some() && !self.preserve_lumen {
+            let found = "a rim without preserve_lumen";
+            return Err(Error::new(
+                ErrorKind::Settings,
+                "rim",
+                found,
+                "radii that count, at which the rim lies",
+            )
+            .mend("set preserve_lumen, or leave the rim out"));
         }
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());

@@ -18,7 +18,7 @@ pub use choices::Choices;
 pub use context::{Context, ContextFrom, ContextMode, ContextName};
 pub use focus::Focus;
 pub use looks::{LOOKS, Look};
-pub use rules::{DistanceRule, LevelChoice, SilhouetteRule, TreeShown};
+pub use rules::{DistanceRule, LevelChoice, RimValue, SilhouetteRule, TreeShown};
 pub use setting::Setting;
 pub use slab::{Slab, SlabMode};
 pub use table::{ContextChoices, MAX_LEVELS, Settings, table};

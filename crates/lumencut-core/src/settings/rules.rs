@@ -29,6 +29,28 @@ impl Named for DistanceRule {
         &[("local", Self::Local), ("whole curve", Self::WholeCurve)];
 }
 
+/// The values that a rim around the vessels shows by colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RimValue {
+    /// The diameter of the lumen (mm).
+    Diameter,
+    /// By how much a graded stenosis is narrower than its reference (%).
+    Narrowing,
+    /// The diameter minus that of the reference of a graded stenosis (mm).
+    Deviation,
+    /// The standard deviation of the measured diameter (mm).
+    Uncertainty,
+}
+
+impl Named for RimValue {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("diameter", Self::Diameter),
+        ("narrowing", Self::Narrowing),
+        ("deviation", Self::Deviation),
+        ("uncertainty", Self::Uncertainty),
+    ];
+}
+
 /// How a picture shows the walls of the vessel tree, besides cutting them open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TreeShown {

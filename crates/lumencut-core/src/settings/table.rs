@@ -4,7 +4,7 @@
 use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
 use super::focus::Focus;
-use super::rules::{DistanceRule, LevelChoice, SilhouetteRule, TreeShown};
+use super::rules::{DistanceRule, LevelChoice, RimValue, SilhouetteRule, TreeShown};
 use super::setting::{Setting, settings};
 use super::slab::Slab;
 use super::value::{Transfer, Value};
@@ -121,6 +121,13 @@ settings! {
         ///
         /// Red, green and blue.
         silhouette_color: [u8; 3] = [255, 220, 0];
+
+        /// Colour a rim around the vessels by values along them (name): `diameter` (mm), `narrowing` of graded stenoses
+        /// (%), `deviation` from their reference (mm) or `uncertainty` of the diameter (mm).
+        ///
+        /// Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from radii; all
+        /// else needs profiles. Labels of the picture explain the colours.
+        rim: Option<RimValue> = None, open("no rim");
 
         /// Vessel walls over the picture (name): `hidden`, or `wireframe` for rings across and lines along the vessels.
         ///

@@ -6,9 +6,12 @@ use rayon::prelude::*;
 use super::focus::{ALL_SHOWN, Shares};
 use super::{Image, Work};
 use crate::error::Result;
-use crate::math::lanes::{Kernel, dispatch, smaller};
+use crate::math::lanes::{Kernel, dispatch, larger, smaller};
 use crate::math::window::Ramp;
 use crate::settings::Settings;
+
+/// Brightness (0 black to 1 white) between which the rim fades: struts and calcium are brighter.
+pub const RIM_FADES: [f32; 2] = [0.80, 0.92];
 
 /// The layers of a picture, from the front to the back.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +22,8 @@ pub struct Layers<'a> {
     pub strength: Option<&'a [f32]>,
     /// Shares of the surface and its silhouettes that are shown, 0 to 1; `None` if both are fully shown.
     pub focus: Option<&'a [Shares]>,
+    /// Colour and share of the rim, if it is drawn.
+    pub rim: Option<&'a [[u8; 4]]>,
     /// The context, premultiplied colours and opacity.
     pub context: Option<&'a [[f32; 4]]>,
 }
@@ -45,6 +50,7 @@ pub fn composite(
     work.expect_whole(Image::Value, layers.value);
     layers.strength.iter().for_each(|strength| work.expect_whole(Image::Strength, strength));
     layers.focus.iter().for_each(|focus| work.expect_whole(Image::Focus, focus));
+    layers.rim.iter().for_each(|rim| work.expect_whole(Image::Rim, rim));
     layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
     let chunk = work.tile_row();
     // Arrays that replace missing layers.
@@ -57,7 +63,9 @@ pub fn composite(
         let strength = part(layers.strength, &absent, row * chunk, value.len());
         let focus = part(layers.focus, &whole, row * chunk, value.len());
         let context = part(layers.context, &empty, row * chunk, value.len());
-        dispatch(work.isa, PaintRows { paint: *parameters, value, strength, focus, context, image });
+        let (paint, rim) =
+            (*parameters, layers.rim.map_or(&[][..], |rim| &rim[row * chunk..][..value.len()]));
+        dispatch(work.isa, PaintRows { paint, value, strength, focus, rim, context, image });
         Ok(())
     })
 }
@@ -91,30 +99,52 @@ impl CompositeParameters {
         }
     }
 
-    /// The grey surface and its silhouettes, each by its share, over context and background.
+    /// The surface and its silhouettes, each by its share, over context and background.
     #[inline(always)]
-    fn pixel(
+    fn pixel(&self, value: f32, strength: f32, shares: Shares, context: [f32; 4]) -> [f32; 4] {
+        let grey = self.grey.at(shown(value)) * (1.0 - shares[3]);
+        self.painted(value, [grey; 3], (strength, shares), context)
+    }
+
+    /// As [`Self::pixel`], with the rim on the grey surface, below the silhouettes.
+    #[inline(always)]
+    fn rimmed(&self, value: f32, rim: [u8; 4], line: (f32, Shares), context: [f32; 4]) -> [f32; 4] {
+        let grey = self.grey.at(shown(value)) * (1.0 - line.1[3]);
+        let [dark, bright] = RIM_FADES;
+        let x = smaller(larger((grey - dark) / (bright - dark), 0.0), 1.0);
+        let share = f32::from(rim[3]) / 255.0 * (1.0 - x * x * (3.0 - 2.0 * x));
+        let surface = [0, 1, 2].map(|c| grey + (f32::from(rim[c]) / 255.0 - grey) * share);
+        self.painted(value, surface, line, context)
+    }
+
+    #[inline(always)]
+    fn painted(
         &self,
         value: f32,
-        strength: f32,
-        [share, lines, around, shade]: Shares,
+        surface: [f32; 3],
+        (strength, [share, lines, around, _]): (f32, Shares),
         context: [f32; 4],
     ) -> [f32; 4] {
         let nothing = value.is_nan();
-        let value = if nothing { 0.0 } else { value };
-        let grey = self.grey.at(value) * (1.0 - shade);
+        let value = shown(value);
         let opacity = if nothing { 0.0 } else { self.opacity.at(value) * share };
         let (through, strength) = (1.0 - opacity, strength * (share * lines));
         let rest = (1.0 - context[3]) * self.background[3];
         let mut pixel = [0.0; 4];
         for c in 0..3 {
-            let surface = grey + (self.line[c] - grey) * strength;
+            let color = surface[c] + (self.line[c] - surface[c]) * strength;
             let behind = context[c] * self.context * around;
-            pixel[c] = surface * opacity + (behind + self.background[c] * rest) * through;
+            pixel[c] = color * opacity + (behind + self.background[c] * rest) * through;
         }
         pixel[3] = opacity + (context[3] + rest) * through;
         pixel
     }
+}
+
+/// A value that can be mapped to grey.
+#[inline(always)]
+fn shown(value: f32) -> f32 {
+    if value.is_nan() { 0.0 } else { value }
 }
 
 /// RGBA with straight alpha of a premultiplied colour; with opacity 0 the colour is `behind`.
@@ -152,6 +182,8 @@ struct PaintRows<'a> {
     value: &'a [f32],
     strength: &'a [f32],
     focus: &'a [Shares],
+    /// Empty without a rim.
+    rim: &'a [[u8; 4]],
     context: &'a [[f32; 4]],
     image: &'a mut [[u8; 4]],
 }
@@ -162,7 +194,10 @@ impl Kernel for PaintRows<'_> {
     /// Plain loops over pixels, which vectorise at any width.
     #[inline(always)]
     fn run(self) {
-        let Self { paint, value, strength, focus, context, image } = self;
+        if !self.rim.is_empty() {
+            return self.run_with_rim();
+        }
+        let Self { paint, value, strength, focus, context, image, .. } = self;
         let runs = value
             .chunks(PIXELS_TOGETHER)
             .zip(strength.chunks(PIXELS_TOGETHER))
@@ -179,6 +214,18 @@ impl Kernel for PaintRows<'_> {
                     *image = straight(paint.pixel(*value, *strength, *share, *context), paint.background);
                 }
             }
+        }
+    }
+}
+
+impl PaintRows<'_> {
+    #[inline(always)]
+    fn run_with_rim(self) {
+        let Self { paint, value, strength, focus, rim, context, image } = self;
+        let pixels = image.iter_mut().zip(value).zip(strength).zip(focus).zip(rim).zip(context);
+        for (((((image, value), strength), share), rim), context) in pixels {
+            let painted = paint.rimmed(*value, *rim, (*strength, *share), *context);
+            *image = straight(painted, paint.background);
         }
     }
 }

@@ -6,8 +6,11 @@
 // The bindings of missing layers are empty.
 override HAS_STRENGTH = true;
 override HAS_FOCUS = false;
+override HAS_RIM = false;
 override HAS_CONTEXT = true;
 override ALONE = false;
+
+const RIM_FADES: vec2f = vec2f(0.80, 0.92);
 
 // The colours of one picture, 0 to 1; composite.rs explains the fields.
 struct CompositeParameters {
@@ -25,6 +28,8 @@ struct CompositeParameters {
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 @group(0) @binding(5) var<storage, read> strength: array<f32>;
 @group(0) @binding(6) var<storage, read> focus: array<vec4f>;
+// Colour and share, a byte each, red lowest.
+@group(0) @binding(7) var<storage, read> rim: array<u32>;
 
 // The nearest integer to a value of at most a little over 255; ties go to the even one.
 fn byte(value: f32) -> u32 {
@@ -36,6 +41,12 @@ fn straight(pixel: vec4f, behind: vec3f) -> u32 {
     let per_alpha = 255.0 / select(1.0, pixel.w, any);
     let color = select(behind * 255.0, pixel.xyz * per_alpha, any);
     return byte(color.x) | (byte(color.y) << 8u) | (byte(color.z) << 16u) | (byte(pixel.w * 255.0) << 24u);
+}
+
+fn rimmed(grey: f32, rim: vec4f) -> vec3f {
+    let x = clamp((grey - RIM_FADES.x) / (RIM_FADES.y - RIM_FADES.x), 0.0, 1.0);
+    let share = rim.w * (1.0 - x * x * (3.0 - 2.0 * x));
+    return grey + (rim.xyz - grey) * share;
 }
 
 @compute @workgroup_size(16, 4)
@@ -60,8 +71,11 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
         let grey = ramp_at(parameters.grey, value[place]) * (1.0 - shares.w);
         let opacity = ramp_at(parameters.opacity, value[place]) * shares.x;
         var color = vec3f(grey);
+        if HAS_RIM {
+            color = rimmed(grey, unpack4x8unorm(rim[place]));
+        }
         if HAS_STRENGTH {
-            color += (parameters.line - grey) * (strength[place] * (shares.x * shares.y));
+            color += (parameters.line - color) * (strength[place] * (shares.x * shares.y));
         }
         pixel = vec4f(color, 1.0) * opacity + back * (1.0 - opacity);
     }

@@ -64,6 +64,10 @@ impl<'a> CutSurface<'a> {
         }
     }
 
+    pub(crate) fn level(&self, level: usize) -> &'a Level {
+        &self.levels[level]
+    }
+
     pub fn camera(&self) -> &'a Camera {
         self.camera
     }
@@ -183,13 +187,18 @@ pub(super) fn is_chosen(gap: f32) -> bool {
     (gap < 0.0) & (gap > WALL_GAP)
 }
 
-/// The images that the stage writes. `sheet` and `blend` are empty if nothing reads them.
+/// Per pixel: the arc length (mm) and the distance beyond the wall (mm; 0 in lumen and wall) of the piece shown, which decide its
+/// vessel, and two unused numbers: on the GPU, all details of a pixel have this size.
+pub type Foot = [f32; 4];
+
+/// The images that the stage writes. `sheet`, `blend` and `foot` are empty if nothing reads them.
 #[derive(Debug)]
 pub struct DepthImages<'a> {
     pub depth: &'a mut [f32],
     pub vessel: &'a mut [i32],
     pub sheet: &'a mut [Sheet],
     pub blend: &'a mut [Blend],
+    pub foot: &'a mut [Foot],
 }
 
 /// Writes depth (mm), vessel id, sheet and blend of the cut surface at each pixel of the view. The level choice
@@ -207,7 +216,7 @@ pub(crate) fn depth_by<S: Search>(
     images: DepthImages,
     search: impl Fn() -> S + Sync,
 ) -> Result<()> {
-    let DepthImages { depth, vessel, sheet, blend } = images;
+    let DepthImages { depth, vessel, sheet, blend, foot } = images;
     work.expect_whole(Image::UnfilteredDepth, depth);
     work.expect_whole(Image::Vessel, vessel);
     if surface.level_choice == LevelChoice::Nearest {
@@ -219,15 +228,20 @@ pub(crate) fn depth_by<S: Search>(
     if !blend.is_empty() {
         work.expect_whole(Image::Blend, blend);
     }
+    if !foot.is_empty() {
+        work.expect_whole(Image::Foot, foot);
+    }
     let chunk = work.tile_row();
     let row_count = depth.len().div_ceil(chunk);
-    let (sheets, blends) = (rows_of(sheet, chunk, row_count), rows_of(blend, chunk, row_count));
-    let rows = depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets).zip(blends);
-    rows.enumerate().try_for_each(|(row, (((depth, vessel), sheet), blend))| {
+    let [sheets, blends, feet] = [sheet, blend, foot].map(|image| rows_of(image, chunk, row_count));
+    let rows =
+        depth.par_chunks_mut(chunk).zip(vessel.par_chunks_mut(chunk)).zip(sheets).zip(blends).zip(feet);
+    rows.enumerate().try_for_each(|(row, ((((depth, vessel), sheet), blend), foot))| {
         work.begin(depth.len())?;
         let from = (row * chunk).min(distance.len());
         let distance = &distance[from..(from + depth.len()).min(distance.len())];
-        let (row, search) = (DepthRow { surface, row, distance, depth, vessel, sheet, blend }, search());
+        let (row, search) =
+            (DepthRow { surface, row, distance, depth, vessel, sheet, blend, foot }, search());
         if surface.lumen_first {
             dispatch(work.isa, DepthKernel::<S, true> { row, search });
         } else {
@@ -252,6 +266,7 @@ struct DepthRow<'a> {
     vessel: &'a mut [i32],
     sheet: &'a mut [Sheet],
     blend: &'a mut [Blend],
+    foot: &'a mut [Foot],
 }
 
 struct DepthKernel<'a, S: Search, const LUMEN_FIRST: bool> {
@@ -282,13 +297,14 @@ impl DepthRow<'_> {
         for column in (0..width).step_by(COLUMNS) {
             let tile = surface.tile(column, self.row * ROWS);
             let mut blended = (!self.blend.is_empty()).then(|| Blended::new(surface.distance_rule));
-            let of_tile = blended.as_mut();
+            let mut feet = (!self.foot.is_empty()).then_some([[0.0; 4]; PIXELS]);
+            let told = (blended.as_mut(), feet.as_mut());
             let over = match surface.level_choice {
-                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search, of_tile),
-                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search, of_tile),
+                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search, told),
+                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search, told),
                 LevelChoice::Nearest => {
                     let distance = gather(self.distance, width, column);
-                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search, of_tile)
+                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search, told)
                 }
             };
             scatter(&over.depth, self.depth, width, column);
@@ -298,6 +314,9 @@ impl DepthRow<'_> {
             }
             if let Some(Blended { blend, .. }) = &blended {
                 scatter(blend, self.blend, width, column);
+            }
+            if let Some(feet) = &feet {
+                scatter(feet, self.foot, width, column);
             }
         }
     }

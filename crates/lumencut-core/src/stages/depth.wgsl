@@ -9,10 +9,11 @@ const WALL_GAP: f32 = -2.0;
 
 override HAS_SHEET: bool = false;
 override HAS_BLEND: bool = false;
+override HAS_FOOT: bool = false;
 
 @group(0) @binding(5) var<storage, read_write> depth_image: array<f32>;
 @group(0) @binding(6) var<storage, read_write> vessel_image: array<i32>;
-// The sheet or the blend.
+// The sheet, the blend or the foot.
 @group(0) @binding(7) var<storage, read_write> details_image: array<vec4f>;
 @group(0) @binding(9) var<storage, read> distance_image: array<f32>;
 
@@ -23,7 +24,7 @@ var<private> coarse_weight: array<vec4f, MAX_QUADS>;
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
-// The sheet or blend so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
+// The sheet, blend or foot so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
 var<private> details: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
@@ -117,6 +118,28 @@ fn add_to_sheets(tile: Tile, level: u32) {
     }
 }
 
+// The foot of the level with the larger weight.
+fn put_feet(tile: Tile, level: u32) {
+    for (var r = 0u; r < ROWS; r++) {
+        for (var a = 0u; a < ACROSS; a++) {
+            let n = quad_of(a, r);
+            let weight = weights(n, f32(level));
+            for (var c = 0u; c < QUAD; c++) {
+                let piece = winner_piece[n][c];
+                let slot = parameters.levels[level].first_slot + piece / 2u;
+                if weight[c] > 0.0 && ruling_slot[n][c] == slot {
+                    let q = vec2f(quad_x[a][c], row_y[r]);
+                    details[n][c] = foot_of(decide(level, winner_key[n][c], piece, vessel_of_slot[slot], q));
+                }
+            }
+        }
+    }
+}
+
+fn foot_of(decision: Decision) -> vec4f {
+    return vec4f(decision.arc_length, decision.beyond_wall, 0.0, 0.0);
+}
+
 // `so_far` with one more level in it; `piece` counts the slots of all levels. depth.rs explains the fields.
 fn with_level(so_far: vec4f, level: f32, weight: f32, piece: u32, q: vec2f) -> vec4f {
     var shown = piece_at(piece, q);
@@ -163,6 +186,9 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
         if HAS_BLEND {
             add_to_blends(level);
         }
+        if HAS_FOOT {
+            put_feet(tile, level);
+        }
     }
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
@@ -171,7 +197,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
                 if in_view(pixel) {
                     depth_image[place_of(pixel)] = blended[quad_of(a, r)][c];
                     vessel_image[place_of(pixel)] = vessel_of_slot[ruling_slot[quad_of(a, r)][c]];
-                    if HAS_SHEET || HAS_BLEND {
+                    if HAS_SHEET || HAS_BLEND || HAS_FOOT {
                         details_image[place_of(pixel)] = details[quad_of(a, r)][c];
                     }
                 }
@@ -207,6 +233,9 @@ fn blend_own(place: u32, decision: Decision, z: f32, winner: u32, q: vec2f) {
             blend = with_level(blend, fine + 1.0, weight, coarse_piece.piece, q);
         }
         details_image[place] = blend;
+    }
+    if HAS_FOOT {
+        details_image[place] = foot_of(decision);
     }
 }
 

@@ -26,6 +26,8 @@ pub mod levels;
 #[doc(hidden)]
 pub mod occlusion;
 #[doc(hidden)]
+pub mod rim;
+#[doc(hidden)]
 pub mod silhouette;
 #[doc(hidden)]
 pub mod surface;

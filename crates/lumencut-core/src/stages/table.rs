@@ -21,10 +21,14 @@ pub enum Image {
     /// Cost, level and kind of piece before the depth filter, four f32 (`stages::depth::Blend`). A view that shows the
     /// volume has none.
     Blend,
+    /// Arc length (mm) and distance beyond the wall (mm) of the piece shown, four f32 (`stages::depth::Foot`).
+    Foot,
     /// Bits that mark jumps of the cut surface's depth, u32 (`stages::leap`).
     Leap,
     /// Shares of the cut surface and its silhouettes that are shown, and factors on colours, 0 to 1, four f32 (`stages::focus`).
     Focus,
+    /// The rim around the vessels: its colour and its share, four bytes (`stages::rim`).
+    Rim,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
     /// Strength of the silhouettes, 0 to 1, f32.
@@ -41,15 +45,17 @@ pub enum Image {
 
 impl Image {
     /// Every image.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Distance,
         Self::UnfilteredDepth,
         Self::Depth,
         Self::Vessel,
         Self::Sheet,
         Self::Blend,
+        Self::Foot,
         Self::Leap,
         Self::Focus,
+        Self::Rim,
         Self::Value,
         Self::Strength,
         Self::Start,
@@ -85,7 +91,7 @@ impl Image {
 
 /// A set of images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ImageSet(u16);
+pub struct ImageSet(u32);
 
 impl ImageSet {
     /// All images that a frame can have.
@@ -102,7 +108,7 @@ impl ImageSet {
     pub const fn of(images: &[Image]) -> Self {
         let (mut bits, mut n) = (0, 0);
         while n < images.len() {
-            bits |= 1 << images[n] as u16;
+            bits |= 1 << images[n] as u32;
             n += 1;
         }
         Self(bits)
@@ -117,12 +123,12 @@ impl ImageSet {
     /// The set without one image.
     #[must_use]
     pub const fn without(self, image: Image) -> Self {
-        Self(self.0 & !(1 << image as u16))
+        Self(self.0 & !(1 << image as u32))
     }
 
     /// Whether an image is in the set.
     pub const fn has(self, image: Image) -> bool {
-        self.0 & 1 << image as u16 != 0
+        self.0 & 1 << image as u32 != 0
     }
 }
 
@@ -147,6 +153,8 @@ pub enum Stage {
     Occlusion,
     /// Darkens the farther side of depth jumps whose lines have faded out.
     FarRim,
+    /// Colours a rim around the vessels by values along them.
+    Rim,
     /// Samples the volume at the cut surface.
     Surface,
     /// Draws lines where the depth of the cut surface jumps.
@@ -163,7 +171,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
@@ -173,6 +181,7 @@ impl Stage {
         Self::Focus,
         Self::Occlusion,
         Self::FarRim,
+        Self::Rim,
         Self::Surface,
         Self::Silhouette,
         Self::Blocks,
@@ -193,6 +202,7 @@ impl Stage {
             Self::Focus => "focus",
             Self::Occlusion => "occlusion",
             Self::FarRim => "far_rim",
+            Self::Rim => "rim",
             Self::Surface => "surface",
             Self::Silhouette => "silhouette",
             Self::Blocks => "blocks",
@@ -209,7 +219,7 @@ impl Stage {
             Self::Distance | Self::Occlusion => 8,
             Self::Depth => 12,
             Self::Leap | Self::Focus | Self::FarRim | Self::Surface => 4,
-            Self::DepthFilter | Self::Silhouette | Self::Body => 2,
+            Self::DepthFilter | Self::Silhouette | Self::Body | Self::Rim => 2,
             Self::Context => 14,
             Self::Composite => 10,
         }
@@ -220,6 +230,7 @@ impl Stage {
         match self {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
             Self::Focus => &[Image::Leap],
+            Self::Rim => &[Image::Foot, Image::Vessel],
             Self::Depth => &[Image::Distance],
             Self::Leap => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
@@ -229,7 +240,7 @@ impl Stage {
             Self::Silhouette => &[Image::Depth, Image::Vessel, Image::Leap, Image::Value],
             Self::Context => &[Image::Depth, Image::Focus, Image::Value],
             Self::Body => &[Image::Start, Image::Gathered],
-            Self::Composite => &[Image::Focus, Image::Value, Image::Strength, Image::Gathered],
+            Self::Composite => &[Image::Focus, Image::Rim, Image::Value, Image::Strength, Image::Gathered],
         }
     }
 
@@ -238,10 +249,11 @@ impl Stage {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => &[],
             Self::Distance => &[Image::Distance],
-            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend],
+            Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend, Image::Foot],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
             Self::Focus | Self::Occlusion | Self::FarRim => &[Image::Focus],
+            Self::Rim => &[Image::Rim],
             Self::Surface => &[Image::Value],
             Self::Silhouette => &[Image::Strength],
             Self::Context => &[Image::Start, Image::Gathered],
@@ -266,6 +278,7 @@ impl Stage {
             (Self::Focus, has_focus || ((has_reach || settings.occlusion > 0.0) && draws)),
             (Self::Occlusion, settings.occlusion > 0.0 && draws),
             (Self::FarRim, settings.far_rim > 0.0 && draws_leaps && has_leaps && has_reach && draws),
+            (Self::Rim, Self::has_foot(settings, wanted)),
         ];
         needed(&stages)
     }
@@ -281,6 +294,7 @@ impl Stage {
                 | Self::Focus
                 | Self::Occlusion
                 | Self::FarRim
+                | Self::Rim
         )
     }
 
@@ -294,6 +308,12 @@ impl Stage {
     pub const fn has_blend(wanted: ImageSet) -> bool {
         let shows_volume = wanted.has(Image::Picture) || wanted.has(Image::Context);
         wanted.has(Image::Blend) && !shows_volume
+    }
+
+    /// Whether the stage `depth` writes the foot, from which a picture's rim is made. On the GPU it has the buffer of the
+    /// context, which is made later.
+    pub const fn has_foot(settings: &Settings, wanted: ImageSet) -> bool {
+        settings.rim.is_some() && (wanted.has(Image::Picture) || wanted.has(Image::Rim))
     }
 
     /// The stages, in order, that show the volume at the positions of `geometry`; the frame shall have the

@@ -7,6 +7,7 @@ use lumencut_core::frame::Frame;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
+use lumencut_core::stages::rim::RimColors;
 use lumencut_phantom::Phantom;
 use lumencut_scenes::compare::assert_equal;
 use lumencut_scenes::tolerances::{CONTEXT_OF_FRAME, DISTANCE};
@@ -31,11 +32,21 @@ impl BothSides {
 
     pub(super) fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
         let scene = Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone());
-        pollster::block_on(self.gpu.render(&scene, &Request::new(camera, settings))).unwrap()
+        let colors = self.colors();
+        let request = Request { rim: Some(&colors), ..Request::new(camera, settings) };
+        pollster::block_on(self.gpu.render(&scene, &request)).unwrap()
     }
 
     pub(super) fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
-        CpuRenderer::default().render(&self.scene(), &Request::new(camera, settings)).unwrap()
+        let colors = self.colors();
+        let request = Request { rim: Some(&colors), ..Request::new(camera, settings) };
+        CpuRenderer::default().render(&self.scene(), &request).unwrap()
+    }
+
+    /// Colours for a rim, which change along each vessel.
+    fn colors(&self) -> RimColors {
+        let vessel = |n: usize| (0..50).map(|k| [5 * k, 255 - 4 * k, 40 * n as u8, 255]).collect();
+        RimColors::new(&(0..self.phantom.tree.vessels().len()).map(vessel).collect::<Vec<_>>())
     }
 
     pub(super) fn check(&mut self, camera: &Camera, settings: &Settings) {

@@ -17,6 +17,7 @@ struct Scene {
     value: Vec<f32>,
     strength: Vec<f32>,
     focus: Vec<Shares>,
+    rim: Vec<[u8; 4]>,
     context: Vec<[f32; 4]>,
 }
 
@@ -35,7 +36,9 @@ impl Scene {
         let context =
             (0..pixels).map(|_| color(&mut random)).map(|[[r, a], [g, _], [b, _]]| [r, g, b, a]).collect();
         let focus = (0..pixels).map(|_| [0; 4].map(|_| random.between(-0.5, 1.5).clamp(0.0, 1.0))).collect();
-        Self { value, strength, focus, context }
+        let byte = |random: &mut Random| random.between(-100.0, 255.0).max(0.0) as u8;
+        let rim = (0..pixels).map(|_| [0; 4].map(|_| byte(&mut random))).collect();
+        Self { value, strength, focus, rim, context }
     }
 }
 
@@ -92,13 +95,14 @@ fn on_the_gpu(
     settings: &Settings,
 ) -> Vec<u8> {
     let pixels = size[0] * size[1];
-    let composite::Layers { value, strength, focus, context } = *layers;
+    let composite::Layers { value, strength, focus, rim, context } = *layers;
     let value = (!value.is_empty()).then(|| device.upload("value", &without_holes(value)));
     let strength = strength.map(|strength| device.upload("strength", strength));
     let context = context.map(|context| device.upload("context", context));
     let focus = focus.map(|focus| device.upload("focus", focus));
     let [value, strength, focus] = [&value, &strength, &focus].map(Option::as_ref);
-    let layers = Layers { value, strength, focus, context: context.as_ref() };
+    let rim = rim.map(|rim| device.upload("rim", rim));
+    let layers = Layers { value, strength, focus, rim: rim.as_ref(), context: context.as_ref() };
     let image = device.image("image", pixels, 4);
     let mut recording = Recording::new(device);
     let view = on_gpu(device, &front(size, 0.5));
@@ -118,12 +122,13 @@ fn pictures_are_those_of_the_cpu() {
         let camera = front(size, 0.5);
         let scene = Scene::new(pixels, 11);
         for settings in settings() {
-            for layers in 0..8 {
+            for layers in 0..16 {
                 let strength = (layers & 1 != 0).then_some(&scene.strength[..]);
                 let context = (layers & 2 != 0).then_some(&scene.context[..]);
                 let focus = (layers & 4 != 0).then_some(&scene.focus[..]);
+                let rim = (layers & 8 != 0).then_some(&scene.rim[..]);
                 let mut expected = vec![[9; 4]; pixels];
-                let cpu = composite::Layers { value: &scene.value, strength, focus, context };
+                let cpu = composite::Layers { value: &scene.value, strength, focus, rim, context };
                 let parameters = CompositeParameters::new(&settings);
                 composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
                 let found = on_the_gpu(device, &composite, size, &cpu, &settings);
@@ -146,8 +151,8 @@ fn a_context_alone_is_that_of_the_cpu() {
         for settings in settings() {
             let mut expected = vec![[9; 4]; pixels];
             let value = vec![f32::NAN; pixels];
-            let cpu =
-                composite::Layers { value: &value, strength: None, focus: None, context: Some(&context) };
+            let context = Some(&context[..]);
+            let cpu = composite::Layers { value: &value, strength: None, focus: None, rim: None, context };
             let parameters = CompositeParameters::new(&settings);
             composite::composite(&on_cpu(&camera), &parameters, &cpu, &mut expected).unwrap();
             let alone = composite::Layers { value: &[], ..cpu };

@@ -13,7 +13,7 @@ use lumencut_core::math::{
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
-use lumencut_core::stages::{body, context, depth, focus, leap, occlusion, silhouette};
+use lumencut_core::stages::{body, composite, context, depth, focus, leap, occlusion, silhouette};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
@@ -91,6 +91,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/transfer": transfer::INVISIBLE;
         "math/walls": walls::MAX_LEAN;
         "stages/body": body::COLOR, body::EVERYWHERE, body::GLOW, body::LINE, body::GLOW_MM, consts::LOG2_E, ray::NONE;
+        "stages/composite": composite::RIM_FADES;
         "stages/context": context::IN_FRONT;
         "stages/depth": depth::CHOSEN_GAP, depth::WALL_GAP;
         "stages/focus": focus::HALO_MM, focus::SHADE_FADE_MM, consts::LOG2_E;

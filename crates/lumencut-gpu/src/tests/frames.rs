@@ -9,7 +9,8 @@ use lumencut_core::math::leaps::LEAPS;
 use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::{Scene, SharedVolume, VolumeKey};
 use lumencut_core::settings::{
-    Context, ContextFrom, DistanceRule, Focus, LevelChoice, Opacity, Settings, SilhouetteRule, Slab, SlabMode,
+    Context, ContextFrom, DistanceRule, Focus, LevelChoice, Opacity, RimValue, Settings, SilhouetteRule,
+    Slab, SlabMode,
 };
 use lumencut_core::stages::{Image, ImageSet, Stage};
 use lumencut_phantom::{Phantom, collinear_run, crossing, trefoil, y_junction};
@@ -34,7 +35,6 @@ fn with(change: impl Fn(&mut Settings)) -> Settings {
     settings
 }
 
-/// The default, and every setting that changes a shader or its parameters.
 fn all_settings() -> Vec<(&'static str, Settings)> {
     vec![
         ("default", Settings::default()),
@@ -72,6 +72,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
         ("quiet surroundings", with(|s| s.silhouette_reach = Some(3.0))),
         ("focus amid whole rays", with(|s| focus_amid(s, ContextFrom::Whole))),
         ("focus amid rays from the cut", with(|s| focus_amid(s, ContextFrom::Cut))),
+        ("a rim of the paper's levels", Settings { rim: Some(RimValue::Diameter), ..Settings::paper() }),
         ("occlusion", with(|s| s.occlusion = 0.6)),
         ("occlusion of the unfiltered depth", with(|s| (s.occlusion, s.depth_filter) = (1.0, false))),
         ("a halo and the body around the focus", with(|s| halo_around(s, &[]))),
@@ -87,7 +88,6 @@ fn halo_around(settings: &mut Settings, chosen: &[usize]) {
     settings.context = Some(Context { halo: 0.6, body: true, ..Context::default() });
 }
 
-/// A wide focus in a dimmed context, whose rays start as `from` states.
 fn focus_amid(settings: &mut Settings, from: ContextFrom) {
     settings.focus = Some(Focus { margin: 0.5, fade: 30.0 });
     settings.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
@@ -156,17 +156,17 @@ fn pixels_of_all_sizes() {
     }
 }
 
-/// Each stage, with the names of all other stages.
 fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
     let others = |stage| on_either().filter(|other| *other != stage).map(|s| s.name().to_owned()).collect();
     on_either().map(move |stage| (stage, others(stage)))
 }
 
-/// All features: a filter within zones, slab, silhouettes, focus, and context behind transparent parts.
+/// All features: a filter within zones, slab, silhouettes, focus, rim, and context behind transparent parts.
 fn everything() -> Settings {
     with(|s| {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
+        s.rim = Some(RimValue::Diameter);
         s.occlusion = 0.6;
         s.context = Some(Context { body: true, ..Context::default() });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });

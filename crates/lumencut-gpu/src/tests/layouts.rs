@@ -14,6 +14,7 @@ use lumencut_core::stages::far_rim::FarRimParameters;
 use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::leap::LeapParameters;
 use lumencut_core::stages::occlusion::{Blur, OcclusionParameters};
+use lumencut_core::stages::rim::{RimParameters, RimStrip};
 use lumencut_core::stages::silhouette::SilhouetteParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
@@ -101,6 +102,8 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("stages/occlusion", Blur { weights, side, reach, padding }),
         host!("stages/far_rim", FarRimParameters { width, strength }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
+        host!("stages/rim", RimParameters { near, far, per_side, most }),
+        host!("stages/rim", RimStrip { first, last, per_mm }),
         host!(
             "math/sampling",
             GridParameters {

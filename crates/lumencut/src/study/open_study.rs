@@ -65,11 +65,18 @@ impl Study {
     }
 
     /// Checks a view. Without shown vessels its focus is ignored, since the page may not yet know that the last vessel is gone.
+    /// A rim without values is ignored too; [`Study::rim_legend`] returns the reason.
     pub fn view_of(&self, message: &ViewMessage) -> Result<View> {
         let mut view = message.view()?;
         if self.content.tree().is_none() {
             view.settings.focus = None;
         }
+        let along = view
+            .settings
+            .rim
+            .map(|kind| self.along(kind, &message.vessels).and_then(|along| Ok(along.rim()?)));
+        view.rim = along.and_then(Result::ok);
+        view.settings.rim = view.settings.rim.filter(|_| view.rim.is_some());
         Ok(view)
     }
 

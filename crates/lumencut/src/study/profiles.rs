@@ -89,6 +89,11 @@ impl Profiles {
         self.kept.any_of(&line)
     }
 
+    /// The profile of a line that was measured last, with what was drawn by hand.
+    pub(crate) fn last_of(&self, line: usize) -> Option<&Profile> {
+        self.kept.last_of(&line).map(|number| self.kept(number))
+    }
+
     /// Stores the point-spread width (mm) requested for a line; None estimates it from the tree.
     pub(crate) fn ask_with(&mut self, line: usize, fwhm: Option<f64>) {
         self.widths.insert(line, fwhm);

@@ -6,6 +6,7 @@ use crate::file_kinds::{KnownFile, kind_of};
 use crate::report::Stated;
 use crate::straightened_sides::StraightenedSides;
 use crate::study::after_edit::{AfterEdit, FirstClick};
+use crate::study::along::LegendMessage;
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::{AskedMessage, OpenedLines};
 use crate::study::content::Report;
@@ -75,6 +76,9 @@ of_the_study {
     /// The views about a place on a vessel (arc length, mm), with the cut diameters.
     [Turn::First] turn_about { vessel: usize, at: f64, size: [usize; 2] } -> PlaceTurn =
         study.turn_about(vessel, at, size, asking.watch.stop)?;
+
+    /// What the colours of a view's rim mean; fails with the reason if there is none.
+    [Turn::Later] rim_legend { view: ViewMessage } -> LegendMessage = study.rim_legend(&view)?;
 
     /// What a pixel shows.
     [Turn::First] pick { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.pick(&study.view_of(&view)?, pixel)?;

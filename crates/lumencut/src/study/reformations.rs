@@ -61,6 +61,10 @@ pub(crate) enum ReformationMessage {
     Untangled {
         side: Side,
     },
+    /// The untangled tree as lines, coloured by diameter.
+    Network {
+        side: Side,
+    },
     Uncurl {
         vessel: usize,
         side: Side,
@@ -82,7 +86,7 @@ pub(crate) enum ReformationMessage {
 impl ReformationMessage {
     pub(crate) fn vessel(&self) -> Option<usize> {
         match self {
-            Self::Untangled { .. } => None,
+            Self::Untangled { .. } | Self::Network { .. } => None,
             Self::Uncurl { vessel, .. } | Self::Spiral { vessel, .. } | Self::Map { vessel, .. } => {
                 Some(*vessel)
             }

@@ -6,14 +6,17 @@ use lumencut_core::geometry::Geometry;
 use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::pipeline::{self, Request};
 use lumencut_core::reformations::cpr::Straightened;
-use lumencut_core::settings::{Settings, Slab, SlabMode};
+use lumencut_core::settings::{RimValue, Settings, Slab, SlabMode};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use std::sync::Arc;
 
+use crate::along_vessels::Legend;
+use crate::axes_words::Axes;
 use crate::lumen_map::{ostia, thickness};
 use crate::lumen_wall::{FoundWall, lumen_wall};
+use crate::network;
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::no_volume;
 use crate::study::open_study::{Study, shown_flat};
@@ -79,7 +82,7 @@ impl Study {
         (before, stop): (Option<&Reformed>, Stop),
     ) -> Result<Laid> {
         Ok(match message {
-            ReformationMessage::Untangled { side } => {
+            ReformationMessage::Untangled { side } | ReformationMessage::Network { side } => {
                 let before = before.and_then(|kept| match &kept.laid {
                     Laid::Untangled(layout) => Some(layout),
                     _ => None,
@@ -143,6 +146,7 @@ impl Study {
                 let thick = thickness(&held, layout, (BAND, level), stop)?;
                 Ok(in_walls(&|n| thick[n], layout.open(stop)?))
             }
+            _ if matches!(message, ReformationMessage::Network { .. }) => Ok(Vec::new()),
             _ => {
                 let (camera, flat) = shown_flat([0.0, 1.0])?;
                 let band = Slab { thickness: BAND[1] - BAND[0], mode: SlabMode::Max };
@@ -161,14 +165,23 @@ impl Study {
     fn picture_of(&self, reformed: &Reformed, (window, stop): ([f64; 2], Stop)) -> Result<ReformedPicture> {
         let layout = reformed.laid.layout();
         let size = layout.size();
-        let mut words = reformed.laid.axes().words();
+        let is_network = matches!(reformed.message, ReformationMessage::Network { .. });
+        let axes = if is_network { Axes::Network } else { reformed.laid.axes() };
+        let mut words = axes.words();
         let is_length =
             matches!(reformed.message, ReformationMessage::Map { of: MapOf::Radius | MapOf::Thickness, .. });
         if let ReformationMessage::Map { of, .. } = reformed.message {
             words += MAP_BLACK;
             words += if of == MapOf::Radius { "" } else { MAP_BRIGHT };
         }
-        let pixels = if is_length {
+        let pixels = if let (ReformationMessage::Network { .. }, Laid::Untangled(laid)) =
+            (reformed.message, &reformed.laid)
+        {
+            let along = self.along(RimValue::Diameter, &[])?;
+            let Legend { ends: [low, high], .. } = along.legend;
+            words += &format!(" Colours: diameter from {low} mm (dark blue) to {high} mm (pale green).");
+            network::drawn(laid, &along, stop)?
+        } else if is_length {
             let end = scale_end(&reformed.value);
             words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
             coloured(&reformed.value, [0.0, end], Colours::Viridis)

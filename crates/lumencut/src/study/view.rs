@@ -6,10 +6,12 @@ use glam::DVec3;
 use lumencut_core::camera::Camera;
 use lumencut_core::reformations::cr::CrParameters;
 use lumencut_core::settings::Settings;
+use lumencut_core::stages::rim::RimColors;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
 use crate::study::failure::{Failure, Result};
+use crate::study::measure_messages::VesselMessage;
 use crate::study::settings::settings;
 
 /// An orthographic camera, with unit vectors as axes.
@@ -72,6 +74,10 @@ pub struct ViewMessage {
     /// Settings by name.
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
+    /// The measured vessels with a reader's marks, for a rim.
+    #[serde(default)]
+    #[cfg_attr(test, ts(optional, as = "Option<Vec<VesselMessage>>"))]
+    pub(crate) vessels: Vec<VesselMessage>,
 }
 
 /// A checked view.
@@ -83,6 +89,8 @@ pub struct View {
     pub method: Method,
     /// The settings.
     pub settings: Settings,
+    /// Colours along the vessels, if the settings have a rim.
+    pub rim: Option<RimColors>,
 }
 
 impl ViewMessage {
@@ -102,10 +110,11 @@ impl ViewMessage {
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
         let mut settings = settings(first, &self.settings)?;
         if method != Method::CutSurface {
-            // The viewer may use the same settings for several methods, but only the cut surface supports a focus.
+            // The viewer may use the same settings for several methods, but only the cut surface supports a focus or a rim.
             settings.focus = None;
             settings.focus_vessels.clear();
+            settings.rim = None;
         }
-        Ok(View { camera: self.camera.camera()?, method, settings })
+        Ok(View { camera: self.camera.camera()?, method, settings, rim: None })
     }
 }

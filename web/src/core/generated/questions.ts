@@ -338,6 +338,15 @@ export type LaidPicture = {
   readonly pixel_spacing: number;
 };
 
+/** What colours mean: words, unit, the values of the first and the last colour, and colours at equal steps. */
+export type Legend = {
+  readonly words: string;
+  readonly unit: string;
+  readonly low: number;
+  readonly high: number;
+  readonly colours: ReadonlyArray<Vector>;
+};
+
 export type LineContent = {
   /** At least two points (mm, LPS). */
   readonly points: ReadonlyArray<Vector>;
@@ -621,6 +630,9 @@ export type Profile = {
 
 export type Reformation = {
   readonly "kind": "untangled";
+  readonly side: Side;
+} | {
+  readonly "kind": "network";
   readonly side: Side;
 } | {
   readonly "kind": "uncurl";
@@ -1099,6 +1111,8 @@ export type View = {
   readonly method: Method;
   /** Settings by name. */
   readonly settings: Settings;
+  /** The measured vessels with a reader's marks, for a rim. */
+  readonly vessels?: ReadonlyArray<MeasuredVessel>;
 };
 
 export type VolumeReport = {
@@ -1191,6 +1205,13 @@ export type Questions = {
       readonly size: Pair;
     };
     readonly answer: PlaceTurn;
+  };
+  /** What the colours of a view's rim mean; fails with the reason if there is none. */
+  readonly rim_legend: {
+    readonly message: {
+      readonly view: View;
+    };
+    readonly answer: Legend;
   };
   /** What a pixel shows. */
   readonly pick: {
@@ -1576,6 +1597,7 @@ export const TURNS = {
   best_view: { when: 'first', words: null },
   line_facts: { when: 'first', words: null },
   turn_about: { when: 'first', words: null },
+  rim_legend: { when: 'later', words: null },
   pick: { when: 'first', words: null },
   brightest: { when: 'first', words: null },
   at: { when: 'first', words: null },

@@ -2,7 +2,7 @@
 
 use super::blend::LevelBlend;
 use super::blended::Blended;
-use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface, WALL_GAP, is_chosen};
+use super::{CHOSEN_GAP, CutSurface, Foot, Search, Sheet, TileSurface, WALL_GAP, is_chosen};
 use crate::math::decision::Decision;
 use crate::math::lanes::{FAR, PIXELS, places};
 use crate::math::pieces::Envelope;
@@ -16,7 +16,7 @@ impl CutSurface<'_> {
         distance: &[f32; PIXELS],
         with_sheet: bool,
         search: &mut impl Search,
-        mut blended: Option<&mut Blended>,
+        (mut blended, mut feet): (Option<&mut Blended>, Option<&mut [Foot; PIXELS]>),
     ) -> TileSurface {
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
@@ -45,12 +45,18 @@ impl CutSurface<'_> {
                     blended.add(l, (level, weight[l]), own, envelope.piece[l], at);
                 }
             }
-            if with_sheet {
+            if with_sheet || feet.is_some() {
                 // Pixels where no piece was found do not use this level, so any slot will do.
                 envelope.piece = envelope.piece.map(|piece| if piece == u32::MAX { 0 } else { piece });
                 let own = self.own_pieces(level);
                 let found = Decision::of::<LUMEN_FIRST>(&envelope, own.projected, tile, &self.rule);
                 sheets.add(&weight, &found);
+                if let Some(feet) = &mut feet {
+                    for l in 0..PIXELS {
+                        let rules = weight[l] > 0.0 && ruling_level[l] == level as u32;
+                        feet[l] = if rules { found.foot(l) } else { feet[l] };
+                    }
+                }
             }
         }
         for l in 0..PIXELS {

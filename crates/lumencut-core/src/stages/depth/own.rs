@@ -2,7 +2,7 @@
 
 use super::blend::LevelBlend;
 use super::blended::Blended;
-use super::{CHOSEN_GAP, CutSurface, Search, TileSurface, WALL_GAP};
+use super::{CHOSEN_GAP, CutSurface, Foot, Search, TileSurface, WALL_GAP};
 use crate::math::decision::Decision;
 use crate::math::lanes::{PART_PIXELS, PIXELS, places};
 use crate::math::own_pieces::NearestPieces;
@@ -15,7 +15,7 @@ impl CutSurface<'_> {
         &self,
         tile: &Tile,
         search: &mut impl Search,
-        mut blended: Option<&mut Blended>,
+        (mut blended, feet): (Option<&mut Blended>, Option<&mut [Foot; PIXELS]>),
     ) -> TileSurface {
         let mut winners = Envelope::new(&[1.0; PIXELS]);
         search.lowest::<LUMEN_FIRST>(0, tile, &self.rule, &mut winners);
@@ -48,6 +48,11 @@ impl CutSurface<'_> {
                         }
                     }
                 }
+            }
+        }
+        if let Some(feet) = feet {
+            for l in 0..PIXELS {
+                feet[l] = decision.foot(l);
             }
         }
         let mut sheet = [[0.0; 4]; PIXELS];

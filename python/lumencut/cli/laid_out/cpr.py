@@ -11,8 +11,9 @@ import click
 
 from lumencut._lumencut import DEFAULTS, WRITTEN_VOLUMES
 from lumencut.base.file_kinds import written_kind
-from lumencut.cli import options, reformations
+from lumencut.cli import options
 from lumencut.cli.dicom import study_of
+from lumencut.cli.laid_out import each
 from lumencut.cli.like import typed
 from lumencut.cli.report import busy, detail, say, warn
 
@@ -41,15 +42,15 @@ def show_cpr(volume_out: Path | None, **given: Any) -> None:
     """Write the pictures of vessels laid out, and the volume of one."""
     _check_view(given)
     _check_outputs(given["output"], volume_out)
-    chosen, settings = reformations.like({**given, "camera": None}, "cpr")
+    chosen, settings = each.like({**given, "camera": None}, "cpr")
     has_series = volume_out is not None and not volume_out.suffix
-    renderer, tree, vessels = reformations.read_vessels(chosen, settings, "cpr", has_series=has_series)
+    renderer, tree, vessels = each.read_vessels(chosen, settings, "cpr", has_series=has_series)
     if volume_out is not None:
-        reformations.check_single(vessels, volume_out)
+        each.check_single(vessels, volume_out)
     make: Callable[[Vessel], Reformation] = partial(_tangential, renderer, chosen, settings)
     if chosen["mode"] != _TANGENTIAL:
-        make = partial(reformations.asked("cpr", chosen, settings, tree).of, renderer)
-    reformations.write_each(chosen, vessels, make)
+        make = partial(each.asked("cpr", chosen, settings, tree).of, renderer)
+    each.write_each(chosen, vessels, make)
     if volume_out is not None and renderer.volume is not None:
         _write_volume(volume_out, renderer.volume, vessels[0][1], chosen)
     detail(f"device: {renderer.device}")

@@ -7,21 +7,24 @@ from typing import Any
 
 import click
 
-from lumencut._lumencut import WRITTEN_VOLUMES
+from lumencut._lumencut import SETTINGS, WRITTEN_VOLUMES
 from lumencut.cli import options
-from lumencut.cli import reformation_options as shared
-from lumencut.cli.cfa import FEATURES, show_cfa
-from lumencut.cli.cpr import MODES, show_cpr
 from lumencut.cli.dicom import grey_option
-from lumencut.cli.flatten import show_flattened
+from lumencut.cli.laid_out import reformation_options as shared
+from lumencut.cli.laid_out.cfa import FEATURES, show_cfa
+from lumencut.cli.laid_out.cpr import MODES, show_cpr
+from lumencut.cli.laid_out.each import show_each
+from lumencut.cli.laid_out.flatten import show_flattened
+from lumencut.cli.laid_out.reformation_options import option
+from lumencut.cli.laid_out.uncurl import show_uncurled
+from lumencut.cli.laid_out.untangled import show_network, show_untangled
 from lumencut.cli.parameters import SIZE, VECTOR, Parts
-from lumencut.cli.reformation_options import option
-from lumencut.cli.reformations import show_each
-from lumencut.cli.uncurl import show_uncurled
-from lumencut.cli.untangled import show_untangled
+from lumencut.cli.settings import rim_option
 
 #: `MODES` of `lumencut.reformations.unrolled_wall`; copied so that `--help` does not import numpy.
 MAP_MODES = ("wall", "radius", "thickness", "shaded")
+
+VALUES = tuple(SETTINGS["rim"].choices)
 
 
 def _command(
@@ -304,6 +307,29 @@ _UNTANGLED = _command(
     ),
 )
 
+_NETWORK = _command(
+    "network",
+    show_network,
+    "Map a vessel tree, coloured by diameter.",
+    """Draw the vessels of CENTERLINES as lines of true length, as wide as the vessels: a network map.
+
+    Colours show the diameter, or another value that the command measures in VOLUME. The layout is that of
+    lumencut untangled.
+
+    \b
+    lumencut network ct.nii.gz centerlines.vtp -o map.png
+    lumencut network ct.nii.gz session.lumencut.json -o map.png --value narrowing
+    """,
+    (
+        shared.output("Picture (.png, .tif, .webp, …), .dcm (DICOM), or .npz for the arrays."),
+        *(options.shown_vessel_options, options.direction_options),
+        option("--value", VALUES, "What the colours show.", "diameter"),
+        rim_option,
+        option("--hull-margin", "MM", "Margin around each vessel that no other may enter (mm).", 4.0),
+        shared.SIDE,
+    ),
+)
+
 _FLATTEN = _command(
     "flatten",
     show_flattened,
@@ -324,4 +350,4 @@ _FLATTEN = _command(
     ),
 )
 
-COMMANDS = (_CPR, _CFA, _SPIRAL, _UNCURL, _MAP, _UNTANGLED, _FLATTEN)
+COMMANDS = (_CPR, _CFA, _SPIRAL, _UNCURL, _MAP, _UNTANGLED, _NETWORK, _FLATTEN)

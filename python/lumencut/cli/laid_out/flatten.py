@@ -6,8 +6,9 @@ from typing import Any
 
 import click
 
-from lumencut.cli import options, reformations
+from lumencut.cli import options
 from lumencut.cli.dicom import check_objects, object_options
+from lumencut.cli.laid_out import each
 from lumencut.cli.mistakes import check_files, check_reading
 from lumencut.cli.report import busy, detail, say, timings, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
@@ -16,7 +17,7 @@ from lumencut.cli.scene import read_files, scene_from, warn_of_window
 def show_flattened(**given: Any) -> None:
     """Write the picture of the surface through the vessels of a file."""
     options.check_picture(given["output"])
-    chosen, settings = reformations.like(given, "flatten")
+    chosen, settings = each.like(given, "flatten")
     files = scene_from(chosen)
     check_objects(chosen, [chosen["output"]])
     check_files(files.volume, files.centerlines)

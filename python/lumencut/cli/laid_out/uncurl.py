@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut.cli import options, reformations
+from lumencut.cli import options
 from lumencut.cli.dicom import study_of
+from lumencut.cli.laid_out import each
 from lumencut.cli.like import typed
 from lumencut.cli.report import bar, say, timings
 from lumencut.errors import FormatError, SettingsError
@@ -32,15 +33,15 @@ if TYPE_CHECKING:
 def show_uncurled(**given: Any) -> None:
     """Write the film of the longest vessel, or one picture of it."""
     output, fps = given["output"], given["fps"]
-    chosen, settings = reformations.like({**given, "camera": None}, "uncurl")
+    chosen, settings = each.like({**given, "camera": None}, "uncurl")
     dicom = {**study_of(chosen), "compress": chosen["compress"], "grey": chosen["grey"]}
     write = _writer(output, chosen["amount"], fps, dicom)
-    renderer, _, vessels = reformations.read_vessels(chosen, settings, "uncurl")
+    renderer, _, vessels = each.read_vessels(chosen, settings, "uncurl")
     title, vessel = max(vessels, key=lambda named: named[1].length)
     camera = _camera(chosen, vessel)
     first = _made(renderer, vessel, camera, chosen, settings)
     if write is None:
-        reformations.write_each(chosen, [(title, vessel)], lambda _: first)
+        each.write_each(chosen, [(title, vessel)], lambda _: first)
         return
     frames = chosen["frames"]
     write(_film(first, frames, annotate=chosen["annotate"]), fps)

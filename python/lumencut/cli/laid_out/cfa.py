@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut.cli import options, reformations
+from lumencut.cli import options
+from lumencut.cli.laid_out import each
 from lumencut.cli.report import busy, say
 
 if TYPE_CHECKING:
@@ -24,12 +25,12 @@ FEATURES = ("max", "mean", "min", "range", "share")
 def show_cfa(beside: str | None, **given: Any) -> None:
     """Write one feature of vessels, or two of them beside the straightened CPR."""
     options.check_picture(given["output"])
-    chosen, settings = reformations.like(given, "cfa")
+    chosen, settings = each.like(given, "cfa")
     _check(chosen, beside)
-    renderer, tree, vessels = reformations.read_vessels(chosen, settings, "cfa")
-    asked = reformations.asked("cfa", chosen, settings, tree)
+    renderer, tree, vessels = each.read_vessels(chosen, settings, "cfa")
+    asked = each.asked("cfa", chosen, settings, tree)
     if beside is None:
-        reformations.write_each(chosen, vessels, partial(asked.of, renderer))
+        each.write_each(chosen, vessels, partial(asked.of, renderer))
         return
     shown = {"cpr": asked.surface(2 * chosen["radius"])}
     shown |= {feature: replace(asked, feature=feature) for feature in ("max", "min")}
@@ -59,12 +60,12 @@ def _write_beside(
     pictures, titles, all_made = [], [], []
     for title, vessel in vessels:
         for name, make in makers.items():
-            made = reformations.made_of(f"{title} ({name})", vessel, make)
+            made = each.made_of(f"{title} ({name})", vessel, make)
             pictures.append(made.annotated() if chosen["annotate"] else made.image)
             titles.append(f"{title}, {made.recipe.name}")
             all_made.append(made)
     with busy(f"writing {chosen['output'].name}"):
         starts = range(0, len(pictures), len(makers))
-        reformations.write_sheet(contact_sheet(pictures, titles, starts), chosen, all_made)
+        each.write_sheet(contact_sheet(pictures, titles, starts), chosen, all_made)
     count = "1 vessel" if len(vessels) == 1 else f"{len(vessels)} vessels"
     say(f"{chosen['output']}: {', '.join(makers)} of {count}")
