@@ -43,7 +43,9 @@ def perfect(truth, camera, beyond=0.0):
     """A frame that shows the truth, and a plane at depth `beyond` (mm) elsewhere; it never changes."""
     depth = np.where(np.isfinite(truth.nearest.depth), truth.nearest.depth, beyond)
     vessel = np.maximum(truth.nearest.vessel, 0)
-    return Shown(depth, vessel, truth.seen.world(depth), depth.copy(), vessel.copy(), np.zeros(depth.shape, bool))
+    return Shown(
+        depth, vessel, truth.seen.world(depth), depth.copy(), vessel.copy(), np.zeros(depth.shape, bool)
+    )
 
 
 def with_depth(shown, truth, depth):

@@ -138,7 +138,7 @@ def test_dark_values_that_were_cut_off_are_noted_with_their_share(tmp_path):
     assert not any("cut off" in note for note in whole.notes)
     cut = tissue.clip(20).astype("i2")
     report = inspect_volume(save_nifti(tmp_path / "cut.nii", cut, oblique()))
-    share = f"{100 * (cut == 20).mean():.0f} % of the voxels have the smallest value, 20: darker values were cut off"
+    share = f"{100 * (cut == 20).mean():.0f} % of the voxels have the smallest value, 20: darker values"
     assert [note for note in report.notes if note.startswith(share)]
 
 

@@ -33,6 +33,7 @@ from dicom_cases import CASES  # noqa: E402
 from dicom_repeated import REPEATED  # noqa: E402
 from dicom_scenes import scan  # noqa: E402
 from lumencut import Vessel, set_threads, straightened_volume  # noqa: E402
+from lumencut._lumencut import cut_off_note  # noqa: E402
 from lumencut.dicom.reading import workers  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.files.volumes import inspected_volume, read_volume  # noqa: E402
@@ -73,12 +74,14 @@ def read(path: Path, **wanted: Any) -> dict[str, Any]:
         words = {"found": error.found, "expected": error.expected, "mend": error.advice}
         return {**words, "mends": mends, "series": series}
     voxels = np.ascontiguousarray(volume.array, np.float32)
+    # The page gets this note from the engine, not from the reader.
+    of_values = cut_off_note(volume)
     return {
         "size": list(volume.size),
         "affine": volume.world_from_index.tolist(),
         "dtype": volume.array.dtype.name,
         "sha256": hashlib.sha256(voxels.tobytes()).hexdigest(),
-        "notes": list(report.notes),
+        "notes": [note for note in report.notes if note != of_values],
         "states": {"spacing": volume.states_spacing, "orientation": volume.states_orientation},
     }
 

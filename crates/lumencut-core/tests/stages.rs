@@ -6,7 +6,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::geometry::Geometry;
 use lumencut_core::math::leaps::{LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
-use lumencut_core::settings::{Opacity, Settings, Slab, SlabMode, Window};
+use lumencut_core::settings::{Context, Opacity, Settings, Slab, SlabMode, Window};
 use lumencut_core::stages::Stage;
 use lumencut_core::stages::composite::{CompositeParameters, Layers, composite};
 use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};
@@ -229,7 +229,9 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
     let affine = DAffine3::from_translation(DVec3::splat(-19.5));
     let volume = Volume::new(Voxels::I16(&voxels), size, [1, 40, 1600], affine).unwrap();
     let tube = tree(vec![vessel(&[[-19.0, 0.0, 0.0], [0.0, 0.0, 0.0], [19.0, 0.0, 0.0]], 5.0)]);
-    let settings = Settings { window: Window { level: 100.0, width: 400.0 }, ..Settings::default() };
+    let window = Window { level: 100.0, width: 400.0 };
+    let context = Some(Context { body: true, ..Context::default() });
+    let settings = Settings { window, context, occlusion: 0.6, ..Settings::default() };
     let camera = view([0.0, 1.0, 0.0], [64, 64], 1.0);
     let frame = picture(volume, &tube, &camera, &settings);
     for (x, y, expected) in [(0.5, 0.5, 255), (10.5, 3.5, 255), (0.5, 8.5, 0), (-12.5, -9.5, 0)] {

@@ -108,8 +108,8 @@ def evaluate(
             When the camera turns by one degree: mean change of depth (mm) and share of pixels that change by
             more than 5 mm, where both depths exist; share of pixels that change their vessel.
         Depth: slides_per_degree_percent, slides_per_degree_max_percent
-            Share of pixels whose depth then jumps by more than 5 mm beyond the motion of the surface: another zone
-            slides there. Of all views together, and of the worst view.
+            Share of pixels whose depth then jumps by more than 5 mm beyond the motion of the surface, as
+            zones slide. Of all views together, and of the worst view.
         Silhouettes: leaps_with_line_percent, lines_elsewhere_mm_per_mm2, leaps
             Share of depth jumps with a silhouette, length of silhouettes elsewhere (mm per mm²), and number
             of jumps; None for methods without silhouettes.

@@ -64,7 +64,7 @@ def slid(
 
     The camera has turned about its up axis. A point that turns with the scene lies on the surface of the view
     before: between the depths of the pixels around its projection there. Surroundings face the viewer in both
-    views; their depth changes at most as much as that of a point at the pixel that turns. Both may be 5 mm off.
+    views; their depth changes at most as much as that of a turning point there. Both may be 5 mm off.
     """
     height, width = depth.shape
     column, row, found = camera.project(turned_position.reshape(-1, 3)).T

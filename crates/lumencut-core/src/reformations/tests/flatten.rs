@@ -145,7 +145,7 @@ fn what_is_no_surface_is_rejected() {
     assert_eq!(crossing.found, "curves 0 and 1 that cross");
     assert_eq!(refused(&[one.clone(), line([0.0, 9.0], [30.0, 9.0])], 0.0).kind, ErrorKind::Camera);
     // Curves may begin at one point.
-    assert!(Flattened::new(&[one.clone(), line([0.0, 0.0], [30.0, 9.0])], Keep::Lines, 1.0).is_ok());
+    assert!(Flattened::new(&[one, line([0.0, 0.0], [30.0, 9.0])], Keep::Lines, 1.0).is_ok());
 }
 
 #[test]
