@@ -343,6 +343,7 @@ class Cpr(Layout):
 class Flattened(Layout):
     def __new__(cls, curves: list[npt.NDArray[np.float64]], keep: str, pixel_spacing: float) -> Flattened: ...
 
+@final
 class Spiral(Layout):
     def __new__(
         cls,

@@ -52,7 +52,9 @@ class NetworkMap(UntangledTree):
     def __init__(self, along: _lumencut.ValuesAlong, asked: dict[str, Any], *of_tree: Any) -> None:
         super().__init__(*of_tree)
         axes = _lumencut.axes_words("network")
-        self.recipe = ReformationRecipe("network map", axes, {**self.recipe.parameters, **asked}, "network")
+        self.recipe: ReformationRecipe = ReformationRecipe(
+            "network map", axes, {**self.recipe.parameters, **asked}, "network"
+        )
         self._along = along
         self.legend: Legend = Legend(*along.legend)
 
