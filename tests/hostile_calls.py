@@ -51,6 +51,7 @@ WRONG: list[Any] = [
 _LEFT_OUT = {"batch", "show", "set_threads", "devices", "get_threads", "evaluate"}
 #: Classes whose methods only store their arguments: errors, notes, results.
 _HELD = {"BatchSummary", "Device", "DeviceWarning", "Flag", "Gap", "Mend", "Ostium", "SeriesReport"}
+_HELD |= {"FlattenedSurface", "NetworkMap", "VolumePyramid"}
 _HELD |= {"CenterlineComparison", "CrossSection", "Evaluation", "FeatureAggregation", "Frame", "LumenMap"}
 _HELD |= {"PlanarReformation", "Profile", "Reformation", "ScanDetails", "SpiralReformation", "Stenosis"}
 _HELD |= {"StraightenedVolume", "TangentialReformation", "Uncurled", "UntangledTree"}

@@ -12,7 +12,8 @@ import click
 import pytest
 
 import lumencut
-from lumencut.cli.batch import _TIMES, _UNITS, _Quantity
+from lumencut.cli.batch import _TIMES
+from lumencut.cli.parameters import BYTES, Quantity
 from lumencut.cohort import lock
 from lumencut.cohort.batch import checked_shard
 from lumencut.cohort.layout import Layout
@@ -111,19 +112,19 @@ def test_impossible_shards_are_refused(shard):
 @pytest.mark.parametrize(
     ("text", "units", "value"),
     [
-        ("8GB", _UNITS, 8 << 30),
-        ("1.5 GiB", _UNITS, 3 << 29),
-        ("512m", _UNITS, 512 << 20),
+        ("8GB", BYTES, 8 << 30),
+        ("1.5 GiB", BYTES, 3 << 29),
+        ("512m", BYTES, 512 << 20),
         ("90min", _TIMES, 5400),
         ("2h", _TIMES, 7200),
         ("45", _TIMES, 45),
-        ("much", _UNITS, None),
+        ("much", BYTES, None),
         ("3 weeks", _TIMES, None),
         ("1.2.3s", _TIMES, None),
     ],
 )
 def test_limits_are_numbers_with_units(text, units, value):
-    kind = _Quantity("SIZE", units, "8GB")
+    kind = Quantity("SIZE", units, "8GB")
     if value is None:
         with pytest.raises(click.BadParameter):
             kind.convert(text, None, None)

@@ -36,11 +36,11 @@ def computed(scene, monkeypatch):
     class Watched:
         interrupted = False
 
-        def render(self, volume, camera, settings, images=None, told=None):
+        def render(self, volume, camera, settings, images=None, *more):
             asked.append(images)
             if self.interrupted:
                 raise KeyboardInterrupt
-            return core.render(volume, camera, settings, images, told)
+            return core.render(volume, camera, settings, images, *more)
 
     monkeypatch.setattr(renderer, "_core", Watched())
     return renderer, asked

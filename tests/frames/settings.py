@@ -110,7 +110,7 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
     yield "silhouettes on a filter-free surface", slope
     yield from each("rim", ("diameter",))
-    yield from each("rim", ("diameter",), **PAPER)
+    yield "paper, rim diameter", {**PAPER, "rim": "diameter"}
     backgrounds = [(10, 200, 30, 128), (255, 255, 255, 0), (20, 40, 60, 255), (0, 0, 0, 1)]
     yield from each("background", backgrounds, context=None, opacity=SEE_THROUGH)
     for background in backgrounds[:2]:

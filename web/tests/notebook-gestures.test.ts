@@ -162,7 +162,7 @@ describe('keys', () => {
     ['Escape', {}],
     ['z', { ctrlKey: true }],
     ['r', { metaKey: true }],
-    ['9', {}],
+    ['0', {}],
   ])('%s with %o is left to the notebook', (key, more) => {
     expect(press(key, more).defaultPrevented).toBe(false);
     expect(steps).toEqual([]);

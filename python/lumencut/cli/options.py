@@ -175,8 +175,8 @@ def file_options(command: Command) -> Command:
 
 def of_zarr(chosen: dict[str, Any]) -> dict[str, Any]:
     """Return the options for OME-Zarr images as arguments of `lumencut.read_volume`."""
-    memory = chosen["memory"]
-    used = {name: chosen[name] for name in ("channel", "time_point")}
+    memory = chosen.get("memory")
+    used = {name: chosen.get(name) for name in ("channel", "time_point")}
     return {"memory": None if memory is None else int(memory), **used}
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.base.checks import choice
-from lumencut.errors import SettingsError, VesselTreeError
+from lumencut.base.checks import choice, number
+from lumencut.errors import CameraError, SettingsError, VesselTreeError
 from lumencut.pictures.reformation_recipe import ReformationRecipe
 from lumencut.pictures.renderer import Renderer
 from lumencut.pictures.value_colours import Legend, write_legend
@@ -151,7 +151,7 @@ class NetworkRequest:
         along = renderer._along.of(self.value)
         assert renderer.tree is not None, "values along the vessels have vessels"
         side = _PIXEL if renderer.volume is None else pixel_side(renderer.volume)
-        width = _MARGINS * self.hull_margin
+        width = _MARGINS * number(CameraError, "hull_margin of the network map", self.hull_margin)
         asked = UntangledRequest(self.camera, width, self.hull_margin, pixel_spacing=self.pixel_spacing)
         made = functools.partial(NetworkMap, along, {"value": self.value})
         return asked.laid_out(renderer, renderer.tree, side, made)

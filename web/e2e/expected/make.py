@@ -26,7 +26,8 @@ def rendered(view: dict[str, Any], size: tuple[int, int], samples: int) -> Image
     scene = getattr(phantom, view["phantom"])()
     window = Window(*view["window"])
     # Context and vessels share the window, as in the page.
-    settings = Settings(window=window, context_window=window, samples=samples, **view["settings"])
+    plain = {"edge_samples": 1}  # The page averages whole pictures instead.
+    settings = Settings(window=window, context_window=window, samples=samples, **plain, **view["settings"])
     camera = Camera(size=size, **view["camera"])
     if view["method"] == "mpcpr":
         frame = lumencut.mpcpr(scene.volume, scene.tree, camera, settings, device="cpu")
