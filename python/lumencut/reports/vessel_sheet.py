@@ -116,6 +116,8 @@ def _chosen(tree: VesselTree, vessels: Iterable[SupportsIndex | str] | None) -> 
     if vessels is None:
         longest = sorted(range(len(tree)), key=lambda number: (-tree[number].length, number))
         return sorted(longest[:MOST_VESSELS])
+    if not isinstance(vessels, Iterable):
+        raise VesselTreeError("vessels of the sheet", type(vessels).__name__, "ids or names")
     ids = sorted(set(tree.ids(*vessels)))
     if not 1 <= len(ids) <= MOST_VESSELS:
         raise VesselTreeError("vessels of the sheet", f"{len(ids)} vessels", f"1 to {MOST_VESSELS} of them")
