@@ -32,11 +32,12 @@ test('a vessel without a name is offered one with a question mark; a click, Ente
     ['touch', (chip: Locator) => chip.tap()],
   ] as const) {
     const viewer = await opened(browser, way === 'touch');
-    const row = await rowOf(viewer, 'left renal artery');
     const chip = suggested(viewer, 'Left renal artery');
     // A name without a number is that of a reader, so nothing is suggested.
     await expect(suggested(viewer, 'Abdominal aorta').first()).toBeVisible();
     await expect(chip).toHaveCount(0);
+    // Only now, as lengths arrive with the suggestions, and order the rows.
+    const row = await rowOf(viewer, 'left renal artery');
     await rename(viewer, row, 'Vessel 7');
     await expect(nameOf(viewer, row)).toHaveValue('Vessel 7');
     await expect(chip).toBeVisible();
