@@ -11,10 +11,13 @@ use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
 /// Red, green and blue of the wires: silhouettes are yellow, and transfer functions red to white.
 const COLOR: [f64; 3] = [60.0, 190.0, 255.0];
-/// Number of lines along a vessel, each through a corner of every ring.
+/// Corners of a ring, and most lines along a vessel, which run through corners.
 const SIDES: usize = 12;
 /// Distance between two rings (radii).
 const RING_STEP: f64 = 1.5;
+/// Least distances between two lines along a vessel, and between two rings (pixels): thin vessels have fewer.
+const LINES_APART: f64 = 4.0;
+const RINGS_APART: f64 = 8.0;
 /// Share of the colour on the far side of a vessel.
 const FAR_SIDE: f32 = 0.35;
 /// Cosine up to which a wire at the outline of a vessel counts as near.
@@ -26,7 +29,7 @@ const HALF_WIDTH: f64 = 0.5;
 pub(crate) fn draw_wireframe(image: &mut [[u8; 4]], camera: &Camera, tree: &VesselTree, settings: &Settings) {
     let mut cover = Cover { size: camera.size(), share: vec![0.0; image.len()] };
     for vessel in tree.vessels() {
-        for wire in wires(vessel, camera.direction(), settings.unknown_radius) {
+        for wire in wires(vessel, camera, settings.unknown_radius) {
             cover.add(wire.ends.map(|end| pixel_of(camera, end)), wire.share);
         }
     }
@@ -44,8 +47,9 @@ struct Wire {
 }
 
 /// The wires of one vessel; none for a vessel without length.
-fn wires(vessel: &Vessel, direction: DVec3, unknown_radius: f64) -> Vec<Wire> {
+fn wires(vessel: &Vessel, camera: &Camera, unknown_radius: f64) -> Vec<Wire> {
     let Ok(path) = CenterlinePath::new(vessel, 0.0) else { return Vec::new() };
+    let (direction, side) = (camera.direction(), camera.pixel_spacing());
     let first = MovingFrame::looking(path.direction()[0], direction);
     let frames = Frames::new(&path, first);
     let corners = |at: f64| {
@@ -62,22 +66,31 @@ fn wires(vessel: &Vessel, direction: DVec3, unknown_radius: f64) -> Vec<Wire> {
         Wire { ends: [from, to], share: if is_near { 1.0 } else { FAR_SIDE } }
     };
     let mut wires = Vec::new();
-    for at in rings(vessel, &path, unknown_radius) {
+    for at in rings(vessel, &path, unknown_radius, RINGS_APART * side) {
         let ring = corners(at);
         wires.extend((0..SIDES).map(|side| wire(ring[side], ring[(side + 1) % SIDES])));
     }
     let along: Vec<_> = path.arc_length().iter().map(|at| corners(*at)).collect();
+    let radii = path.arc_length().iter().map(|at| radius_at(vessel, *at, unknown_radius));
+    let mean = radii.sum::<f64>() / along.len() as f64;
     for pair in along.windows(2) {
-        wires.extend((0..SIDES).map(|side| wire(pair[0][side], pair[1][side])));
+        let lines = (0..SIDES).step_by(corners_between(mean / side));
+        wires.extend(lines.map(|corner| wire(pair[0][corner], pair[1][corner])));
     }
     wires
 }
 
+/// How many corners apart the lines along a vessel of a radius (pixels) are.
+fn corners_between(radius: f64) -> usize {
+    let is_wide = |apart: &usize| TAU * radius * *apart as f64 / SIDES as f64 >= LINES_APART;
+    [1, 2, 3, 4].into_iter().find(is_wide).unwrap_or(6)
+}
+
 /// Arc lengths of the rings (mm); both ends have one.
-fn rings(vessel: &Vessel, path: &CenterlinePath, unknown_radius: f64) -> Vec<f64> {
+fn rings(vessel: &Vessel, path: &CenterlinePath, unknown_radius: f64, least: f64) -> Vec<f64> {
     let mut at = vec![0.0];
     for length in path.arc_length() {
-        let step = RING_STEP * radius_at(vessel, *length, unknown_radius);
+        let step = least.max(RING_STEP * radius_at(vessel, *length, unknown_radius));
         if length - at[at.len() - 1] >= step {
             at.push(*length);
         }

@@ -65,7 +65,7 @@ impl Study {
     }
 
     /// Checks a view. Without shown vessels its focus is ignored, since the page may not yet know that the last vessel is gone.
-    /// A rim without values is ignored too; [`Study::rim_legend`] returns the reason.
+    /// A rim without values is ignored too; `rim_legend` returns the reason.
     pub fn view_of(&self, message: &ViewMessage) -> Result<View> {
         let mut view = message.view()?;
         if self.content.tree().is_none() {

@@ -74,3 +74,8 @@ fn wires_outside_the_picture_change_nothing() {
     draw_wireframe(&mut image, &camera, &tree(0.0), &Settings::default());
     assert!(image.chunks(64).all(|row| row[35] != GREY));
 }
+
+#[test]
+fn thin_vessels_have_fewer_lines() {
+    assert_eq!([20.0, 8.0, 5.0, 3.0, 2.0, 1.0, 0.1].map(corners_between), [1, 1, 2, 3, 4, 6, 6]);
+}
