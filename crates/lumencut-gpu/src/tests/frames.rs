@@ -383,7 +383,6 @@ fn the_context_of_another_volume_leaves_the_cut_surface_alone() {
     let context = SharedVolume::new(around.volume().unwrap(), VolumeKey::default());
     let both = Scene { context: Some(context), ..scan.clone() };
     let camera = view([0.3, 1.0, 0.2], SIZE, 0.8);
-    // A rim would need values along the vessels.
     let settings = Settings { rim: None, ..everything() };
     let request = Request::new(&camera, &settings);
     let mut gpu = GpuRenderer::new(Arc::clone(device));
