@@ -54,7 +54,7 @@ def test_equal_sheets_have_equal_bytes(scene, tmp_path, ending):
 def test_all_rows_share_the_scale_of_the_arc_length():
     picture = np.zeros((4, 8, 4), np.uint8)
     rows = [Strip("", length, picture, 20.0, None, None, (), ()) for length in (100.0, 25.0)]
-    figure = sheet_figure(picture, None, rows, "")
+    figure = sheet_figure(picture, "no room", rows, "")
     widths = [axes.get_position().width for axes in figure.axes[-2:]]
     assert widths[0] == pytest.approx(4 * widths[1])
     assert [axes.get_xlim() for axes in figure.axes[-2:]] == [(0, 100), (0, 25)]

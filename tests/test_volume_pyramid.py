@@ -12,6 +12,8 @@ from lumencut import (
     Renderer,
     Settings,
     Slab,
+    Vessel,
+    VesselTree,
     Volume,
     VolumeError,
     Window,
@@ -107,6 +109,21 @@ def test_a_coarse_view_reads_a_coarse_level(stenosis):
     expected = Renderer(coarse, made.tree, "cpu").render(camera, settings)
     assert np.abs(own.image.astype(int) - expected.image).max() <= 1
     assert read.bytes_read - before < made.volume.array.nbytes / 8
+
+
+def test_samples_far_from_the_middle_of_their_pixels_are_read(stenosis, tmp_path):
+    made, _ = stenosis
+    # A pyramid of one level: its voxels are much smaller than a pixel.
+    write_image(tmp_path / "a.zarr", [made.volume.array], scale=(0.5, 0.5, 0.5), chunks=32)
+    read = lumencut.read_volume(tmp_path / "a.zarr")
+    volume = Volume(made.volume.array, world_from_index=read.world_from_index)
+    line = Vessel(made.tree[0].points - made.volume.origin, made.tree[0].radius)
+    tree = VesselTree([line])
+    settings = Settings(context=None, window=WINDOW, samples=4, background=(255, 0, 0, 255))
+    camera = Camera(line.points[60], (0, 1, 0), (0, 0, 1), (3, 3), 6.0)
+    own = Renderer(read, tree, "cpu").render(camera, settings)
+    expected = Renderer(volume, tree, "cpu").render(camera, settings)
+    np.testing.assert_array_equal(own.image, expected.image)
 
 
 def test_a_thick_cut_reads_its_slab(stenosis):

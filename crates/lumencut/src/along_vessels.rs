@@ -101,7 +101,7 @@ impl ValuesAlong {
             return Ok(RimColors::new(&colours));
         }
         let found = "vessels without radii";
-        Err(Error::new(ErrorKind::VesselTree, "rim", found, "radii, which tell where the wall is")
+        Err(Error::new(ErrorKind::VesselTree, "rim", found, "radii, which state where the wall is")
             .mend("measure the radii of the tree, or leave the rim out"))
     }
 }

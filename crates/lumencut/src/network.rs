@@ -15,7 +15,7 @@ const UNKNOWN: [u8; 3] = [110; 3];
 /// Half the width of the thinnest line (pixels).
 const THINNEST: f64 = 1.25;
 
-/// RGBA, transparent beside the lines, row by row; the size is that of the layout.
+/// RGBA, transparent outside the lines, row by row; the size is that of the layout.
 pub fn drawn(laid: &Untangled, along: &ValuesAlong, stop: Stop) -> Result<Vec<[u8; 4]>> {
     let [width, height] = laid.size();
     let mut sheet = Sheet {

@@ -10,6 +10,8 @@ from pathlib import Path
 
 from lumencut.errors import FormatError
 
+PYRAMID_MEMORY = 1_000_000_000
+"""Most bytes of voxels of an image in chunks, if no limit is given."""
 _UNKNOWN = 1 << 48
 """The memory of a system that does not report it."""
 _SMALL = 16 << 20

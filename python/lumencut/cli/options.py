@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from lumencut.base.memory import PYRAMID_MEMORY, in_words
 from lumencut.cli.parameters import BYTES, SIZE, VECTOR, Named, Quantity
 from lumencut.errors import CameraError, FileError
 
@@ -141,7 +142,7 @@ def zarr_options(command: Command) -> Command:
     memory = click.option(
         "--memory",
         type=Quantity("SIZE", BYTES, "4GB"),
-        help="Most memory for the voxels of an OME-Zarr image; default: 1 GB.",
+        help=f"Most memory for the voxels of an OME-Zarr image; default: {in_words(PYRAMID_MEMORY)}.",
     )
     channel = click.option("--channel", metavar="NAME|N", help="The channel to read from an OME-Zarr image.")
     time_point = click.option(

@@ -37,7 +37,7 @@ class Method:
         Returns a frame with a picture; needs a volume.
     details : function of Renderer, Camera and Settings
         ``"sheet_gap"``, the arc length between the points that a pixel blends (mm), ``"strength"`` of the
-        silhouettes and ``"rim"`` beside them (0 to 1), if the method has them.
+        silhouettes and ``"rim"`` next to them (0 to 1), if the method has them.
     is_filtered : bool, default True
         Whether the depth filter of the settings changes the frame.
     has_image_per_vessel : bool, default False

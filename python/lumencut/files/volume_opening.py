@@ -87,7 +87,7 @@ def _text(value: object) -> str | None:
     return None if value is None else str(value)
 
 
-def is_pyramid(given: str | os.PathLike[str], wanted: Wanted) -> bool:
+def _is_pyramid(given: str | os.PathLike[str], wanted: Wanted) -> bool:
     """Return whether a path names an OME-Zarr image; reject options of the other kind of files."""
     is_pyramid = is_served(given) or (not is_address(given) and is_ome_zarr(checked_path(given, KNOWN)))
     for field in fields(Wanted):
@@ -104,7 +104,7 @@ def open_wanted(given: str | os.PathLike[str], wanted: Wanted, progress: Progres
     """Choose the reader by content, or by name if the content is ambiguous."""
     if is_address(given):
         return _fetched(given, wanted, progress)
-    if is_pyramid(given, wanted):
+    if _is_pyramid(given, wanted):
         from lumencut.files.ome_zarr.opening import pyramid_file
 
         return pyramid_file(given, wanted).checked()

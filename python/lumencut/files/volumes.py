@@ -25,7 +25,6 @@ from lumencut.dicom.web.address import is_address
 from lumencut.errors import FormatError
 from lumencut.files.volume_opening import (
     existing,
-    is_pyramid,
     log_oddities,
     open_volume,
     open_wanted,
@@ -163,13 +162,6 @@ def read_volume(
     callback(FormatError, "progress", progress)
     counted = progress if progress is not None else silent
     wanted = wanted_of(series, phase, fill_gaps, resample_slices, segments, memory, channel, time_point)
-    if is_pyramid(path, wanted):
-        from lumencut.files.ome_zarr.opening import notes_on, open_pyramid
-
-        pyramid, multiscale = open_pyramid(path, wanted)
-        for note in notes_on(multiscale, pyramid):
-            _log.warning("%s: %s", path, note)
-        return pyramid
     file = open_wanted(path, wanted, counted)
     volume = file.volume(counted)
     if not file.format.startswith("DICOM"):
@@ -271,7 +263,7 @@ def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
         space=file.space,
         world_from_index=file.world_from_index,
         value_range=value_range,
-        details=file.details,
+        details=file.details | file.slow_details(),
         filled_slices=file.filled,
         notes=(*file.notes, *file.remarks),
     )

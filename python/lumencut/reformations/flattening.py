@@ -65,7 +65,7 @@ class FlattenedSurface(Reformation):
 
     @functools.cached_property
     def shear(self) -> npt.NDArray[np.float32]:
-        """Cosine-like share |F|: 0 where rows and columns of the image cross at a right angle on the surface.
+        """Size of F, the product of both tangents: 0 where rows and columns cross at a right angle.
 
         Float32, shape (H, W), NaN beyond the surface.
         """

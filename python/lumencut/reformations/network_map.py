@@ -71,7 +71,7 @@ class NetworkMap(UntangledTree):
 
     @functools.cached_property
     def image(self) -> npt.NDArray[np.uint8]:
-        """RGBA picture, uint8, shape (H, W, 4); transparent beside the lines."""
+        """RGBA picture, uint8, shape (H, W, 4); transparent outside the lines."""
         return self._core.network(self._along)
 
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:

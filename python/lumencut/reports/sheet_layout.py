@@ -69,7 +69,7 @@ class Strip:
 
 
 def sheet_figure(
-    tree: npt.NDArray[np.uint8], untangled: npt.NDArray[np.uint8] | None, rows: Sequence[Strip], note: str
+    tree: npt.NDArray[np.uint8], untangled: npt.NDArray[np.uint8] | str, rows: Sequence[Strip], note: str
 ) -> Figure:
     """Return the page: both pictures of the tree, and a row for each vessel."""
     from matplotlib import style
@@ -84,7 +84,10 @@ def sheet_figure(
         page = _Page(figure, height)
         half = (_WIDTH - 3 * _MARGIN) / 2
         page.picture(tree, _MARGIN, _MARGIN, half, _TREE, "From the front")
-        if untangled is not None:
+        if isinstance(untangled, str):
+            words = "\n".join(textwrap.wrap(f"Untangled: {untangled}", 2 * _COLUMNS))
+            page.text(2 * _MARGIN + half, _MARGIN, words)
+        else:
             page.picture(untangled, 2 * _MARGIN + half, _MARGIN, half, _TREE, "Untangled")
         top = _MARGIN + _TREE + _TITLE
         for row, used in zip(rows, tall, strict=True):

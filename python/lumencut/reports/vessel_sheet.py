@@ -143,13 +143,13 @@ class _Scene:
         camera = Camera.anterior(self.tree, (_TREE_PIXELS, _TREE_PIXELS))
         return self.renderer.render(camera, Settings.focused(), images=["image"]).annotated()
 
-    def untangled(self) -> npt.NDArray[np.uint8] | None:
-        """Return the untangled tree; None where it cannot be laid out."""
+    def untangled(self) -> npt.NDArray[np.uint8] | str:
+        """Return the untangled tree, or why it cannot be laid out."""
         camera = Camera.anterior(self.tree, (_TREE_PIXELS, _TREE_PIXELS))
         try:
             return untangled(self.volume, self.tree, camera, device=self.device).annotated()
-        except LumencutError:
-            return None
+        except LumencutError as error:
+            return str(error)
 
     def strip(self, number: int) -> Strip:
         """Return the row of a vessel; without a measured lumen, only its CPR."""

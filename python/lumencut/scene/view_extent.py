@@ -68,9 +68,10 @@ def _part_in_view(
         + upwards[:, None, None] * camera.up
         + depth[..., None].astype(np.float64) * camera.direction
     )
-    slab = 0.0 if settings.slab is None else settings.slab.thickness / 2
+    # Further samples of a pixel lie next to its middle.
+    reach = camera.pixel_spacing + (0.0 if settings.slab is None else settings.slab.thickness / 2)
     inside = places[pyramid.contains(places.reshape(-1, 3)).reshape(height, width)]
-    return pyramid.part(inside, slab, camera.pixel_spacing)
+    return pyramid.part(inside, reach, camera.pixel_spacing)
 
 
 def corners_in_view(volume: Volume, camera: Camera) -> npt.NDArray[np.float64]:

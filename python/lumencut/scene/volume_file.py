@@ -41,11 +41,14 @@ class VolumeFile:
     dtype: np.dtype[Any]
     space: str
     world_from_index: npt.NDArray[np.float64]
-    load: Callable[[Progress, Filled], npt.NDArray[Any]]
+    load: Callable[[Progress, Filled], npt.NDArray[Any] | Volume]
+    """Reads the voxels, or returns a volume that reads them when they are needed."""
     notes: list[str] = field(default_factory=list)
     filled: tuple[int, ...] = ()
     details: dict[str, str] = field(default_factory=dict)
     scan: ScanDetails = field(default_factory=ScanDetails)
+    slow_details: Callable[[], dict[str, str]] = dict
+    """Further details, which take long to find."""
     remarks: list[str] = field(default_factory=list)
     """Notes on the file for reports, without a warning to every reader."""
     states_spacing: bool = True
@@ -73,6 +76,8 @@ class VolumeFile:
         """
         with heeding(progress) as report, refusing(self.path, self.format, self.notes):
             voxels = self.load(report, filled)
+        if isinstance(voxels, Volume):
+            return voxels
         volume = _placed(self, voxels)
         volume._frame_of_reference, volume._is_segmentation = self.frame_of_reference, self.is_segmentation
         volume._label_names = self.label_names

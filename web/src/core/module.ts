@@ -40,7 +40,7 @@ export const memorySize = (): number => held?.buffer.byteLength ?? 0;
 
 const PAGE = 65536;
 
-/** Whether the module can have so many bytes more. It keeps them, so this is for a module that has crashed. */
+/** Whether the module can have this many more bytes. It keeps them, so this is for a module that has crashed. */
 export function canGrow(bytes: number): boolean {
   try {
     held?.grow(Math.ceil(bytes / PAGE));

@@ -1,6 +1,5 @@
 //! Free-form flattening: the surface through several curves as an image. Lengths are true along one reference curve, and along
-//! all curves that run across it. The layout is ours; the reference curve and the lines across it are those of the
-//! free-form visualisation in the survey of section 2 of the paper.
+//! all curves that run across it. The paper (section 2) cites such a surface between curves by Saroul et al.; the layout is ours.
 
 mod line;
 mod surface;

@@ -298,13 +298,13 @@ impl DepthRow<'_> {
             let tile = surface.tile(column, self.row * ROWS);
             let mut blended = (!self.blend.is_empty()).then(|| Blended::new(surface.distance_rule));
             let mut feet = (!self.foot.is_empty()).then_some([[0.0; 4]; PIXELS]);
-            let told = (blended.as_mut(), feet.as_mut());
+            let outputs = (blended.as_mut(), feet.as_mut());
             let over = match surface.level_choice {
-                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search, told),
-                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search, told),
+                LevelChoice::Own if with_sheet => surface.own::<LUMEN_FIRST, true>(&tile, search, outputs),
+                LevelChoice::Own => surface.own::<LUMEN_FIRST, false>(&tile, search, outputs),
                 LevelChoice::Nearest => {
                     let distance = gather(self.distance, width, column);
-                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search, told)
+                    surface.nearest_surface::<LUMEN_FIRST>(&tile, &distance, with_sheet, search, outputs)
                 }
             };
             scatter(&over.depth, self.depth, width, column);

@@ -10,27 +10,25 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.base.checks import integers
-from lumencut.base.foreign_errors import Progress, refusing
-from lumencut.base.memory import in_words
+from lumencut.base.foreign_errors import refusing
+from lumencut.base.memory import PYRAMID_MEMORY, in_words
 from lumencut.dicom.reading.judging import Wanted
 from lumencut.errors import FormatError
 from lumencut.files.ome_zarr.multiscales import Axis, Multiscale, StoredLevel, multiscale_of
 from lumencut.files.ome_zarr.stored_array import StoredArray
 from lumencut.files.ome_zarr.stores import answering, open_group
-from lumencut.scene.volume_file import Filled, VolumeFile
+from lumencut.scene.volume_file import VolumeFile
 from lumencut.scene.volume_pyramid import PyramidLevel, VolumePyramid
 
 if TYPE_CHECKING:
     import zarr
 
-#: Most bytes of voxels in memory by default.
-DEFAULT_MEMORY = 1_000_000_000
 #: A smaller budget holds no chunk of usual size.
 _LEAST_MEMORY = 1_000_000
 
 
-def open_pyramid(given: str | os.PathLike[str], wanted: Wanted) -> tuple[VolumePyramid, Multiscale]:
-    """Open an OME-Zarr image; return it with its metadata. No voxel is read.
+def pyramid_file(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
+    """Open an OME-Zarr image; no voxel is read.
 
     Parameters
     ----------
@@ -47,7 +45,7 @@ def open_pyramid(given: str | os.PathLike[str], wanted: Wanted) -> tuple[VolumeP
         If the memory is too small for the coarsest level.
     """
     subject = os.fspath(given)
-    budget = DEFAULT_MEMORY if wanted.memory is None else wanted.memory
+    budget = PYRAMID_MEMORY if wanted.memory is None else wanted.memory
     (budget,) = integers(FormatError, "memory", [budget], _LEAST_MEMORY, 1 << 50, 1)
     group = open_group(given)
     with answering(subject), refusing(subject, "OME-Zarr", []):
@@ -61,20 +59,10 @@ def open_pyramid(given: str | os.PathLike[str], wanted: Wanted) -> tuple[VolumeP
         levels.append(_level(multiscale, stored, array, picked, subject))
     _check_extents(levels, subject)
     pyramid = VolumePyramid(levels, budget, states_spacing=multiscale.millimetres is not None)
-    return pyramid, multiscale
-
-
-def pyramid_file(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
-    """Return an OME-Zarr image as a volume file with the finest level that fits into half of the memory."""
-    pyramid, multiscale = open_pyramid(given, wanted)
-    notes, details = notes_on(multiscale, pyramid), _details(multiscale, pyramid)
-
-    def load(progress: Progress, filled: Filled) -> npt.NDArray[Any]:
-        return pyramid.array
-
     return VolumeFile(
-        Path(given), f"OME-Zarr {details['version']}", pyramid.size, pyramid.dtype, "LPS (assumed)",
-        pyramid.world_from_index, load, notes=notes, details=details,
+        Path(given), f"OME-Zarr {multiscale.version}", pyramid.size, pyramid.dtype, "LPS (assumed)",
+        pyramid.world_from_index, lambda progress, filled: pyramid, notes=_notes(multiscale, pyramid),
+        details=_details(multiscale, pyramid), slow_details=lambda: _gaps(pyramid),
         states_spacing=pyramid.states_spacing, states_orientation=False, settled_type=pyramid.dtype,
     )  # fmt: skip
 
@@ -176,7 +164,7 @@ def _check_extents(levels: list[PyramidLevel], subject: str) -> None:
                 raise FormatError(subject, found, "levels of one place", "make its pyramid again")
 
 
-def notes_on(multiscale: Multiscale, pyramid: VolumePyramid) -> list[str]:
+def _notes(multiscale: Multiscale, pyramid: VolumePyramid) -> list[str]:
     """Return what is assumed about an image."""
     notes = []
     if multiscale.millimetres is None:
@@ -193,20 +181,23 @@ def notes_on(multiscale: Multiscale, pyramid: VolumePyramid) -> list[str]:
 
 
 def _details(multiscale: Multiscale, pyramid: VolumePyramid) -> dict[str, str]:
-    details = {"version": multiscale.version}
+    details = {}
     for number, level in enumerate(pyramid.levels):
         size = " × ".join(map(str, level.size))
         spacing = " × ".join(f"{side:.4g}" for side in level.spacing)
-        details[f"level {number}"] = f"{size} voxels of {spacing} mm, {in_words(level.bytes)}{_gaps(level)}"
+        details[f"level {number}"] = f"{size} voxels of {spacing} mm, {in_words(level.bytes)}"
     if multiscale.channels:
         details["channels"] = ", ".join(multiscale.channels)
     return details
 
 
-def _gaps(level: PyramidLevel) -> str:
-    """Say how many chunks are stored, where some are missing; a server does not list them."""
-    assert isinstance(level.array, StoredArray)
-    stored = level.array.stored
-    if stored is None or stored[0] >= stored[1]:
-        return ""
-    return f"; {stored[0]} of {stored[1]} chunks are stored, the others have one value"
+def _gaps(pyramid: VolumePyramid) -> dict[str, str]:
+    """Return how many chunks of a level are stored, where some are missing; a server does not list them."""
+    gaps = {}
+    for number, level in enumerate(pyramid.levels):
+        assert isinstance(level.array, StoredArray)
+        stored = level.array.stored
+        if stored is not None and stored[0] < stored[1]:
+            words = f"{stored[0]} of {stored[1]} chunks are stored, the others have one value"
+            gaps[f"chunks of level {number}"] = words
+    return gaps
