@@ -63,7 +63,7 @@ def test_two_phases_of_contrast_change_no_diameter_silently(volume, line, later)
 
 def test_noise_of_half_the_contrast_is_named(line):
     noisy = replace(SCENE, noise=260.0).volume()
-    with pytest.raises(MeasuringError, match=r"found a contrast of \d+ and noise of \d+.*smooth the volume"):
+    with pytest.raises(MeasuringError, match=r"next to it, with noise of \d+; .*smooth the volume"):
         measure(noisy, line)
 
 
@@ -71,7 +71,9 @@ def test_noise_of_a_fifth_of_the_contrast_is_in_the_uncertainty(line):
     profile = measure(replace(SCENE, noise=90.0).volume(), line)
     error = np.abs(profile.diameter_equivalent - SCENE.diameter)
     counts = (profile.flags & int(UNCOUNTED)) == 0
-    assert np.mean(error[counts] <= 2 * profile.uncertainty[counts]) > 0.85
+    assert counts.mean() > 0.5
+    assert (error[counts] <= 3 * profile.uncertainty[counts]).mean() > 0.95
+    assert not silent(profile).size
 
 
 def test_a_vessel_that_ends_in_a_mass_is_measured_up_to_it(volume, line):

@@ -8,8 +8,7 @@ use crate::measure::section::flags::{CALCIUM, METAL, NEIGHBOR};
 
 use super::struts::lies_in_metal;
 
-/// Maximum distance (mm) between two rings of one stent; a longer stretch of metal is a stent. Between two stents, no longer
-/// stretch is free of what may be struts: single sections may miss them.
+/// Maximum distance (mm) between two rings of one stent; a longer stretch of metal is a stent. Single sections may miss struts.
 const RINGS: f64 = 6.0;
 
 /// Maximum distance (mm) between two rings if all sections between them contain bright material, and from a stent to
@@ -62,7 +61,7 @@ struct Between {
     length: f64,
     /// Longest part without what may be struts.
     dark: f64,
-    /// Whether both stretches are stents. Between stents, a vessel beside may be struts.
+    /// Between stents, a vessel beside may be struts.
     stents: bool,
 }
 

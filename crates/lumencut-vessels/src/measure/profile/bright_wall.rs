@@ -4,7 +4,7 @@
 use super::lung::{better, include};
 use super::measuring::own_spread;
 use super::prepared::PreparedVessel;
-use super::unsure_spread::is_same_lumen;
+use super::unsure_spread::{diameter, is_same_lumen};
 use super::{PointSpread, Source};
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::Section;
@@ -17,17 +17,13 @@ use lumencut_core::stop::Stop;
 /// The second reading is shown, or refuted, if its squared residuals differ by this many standard errors.
 const SHOWN: f64 = 2.0;
 
-/// What the second reading of a vessel shows.
 pub(super) enum BrightWall {
-    /// The vessel with the level of plaque, and its point spread.
     Shown(Box<PreparedVessel>, PointSpread),
-    /// The sections of the second reading, which fits as well as the first one.
     Possible(Vec<Section>),
 }
 
 impl PreparedVessel {
-    /// Measures a vessel whose wall looks bright again; `sections` are those of the first reading. None if the wall is not
-    /// bright, or the second reading fits worse.
+    /// Measures a vessel whose wall looks bright again; `sections` are those of the first reading.
     pub(super) fn bright_wall(
         &self,
         voxels: &Voxels,
@@ -52,7 +48,7 @@ impl PreparedVessel {
         let pairs: Vec<Option<(Fit, Fit)>> =
             read.sections.iter().zip(sections).map(|(one, other)| free(one).zip(free(other))).collect();
         let better = better(&pairs, read.every);
-        // A wide blur looks like a bright wall, so with an assumed one the second reading must fit better.
+        // A wide blur looks like a bright wall.
         let is_sure = !matches!(spread.source, Source::Assumed { .. });
         Ok(match better {
             better if better > SHOWN => Some(BrightWall::Shown(Box::new(bright), spread)),
@@ -72,12 +68,10 @@ impl PreparedVessel {
     }
 }
 
-/// Includes what the second reading shows where both may be true.
 pub(super) fn include_bright(sections: &mut [Section], bright: &[Section]) {
     for (section, bright) in sections.iter_mut().zip(bright) {
         let (Some(own), Some(other)) = (&section.fit, &bright.fit) else { continue };
-        let [own, other_diameter] = [own, other].map(|fit| fit.ellipse.equivalent_diameter());
-        if is_same_lumen(own, other_diameter) {
+        if is_same_lumen(diameter(own), diameter(other)) {
             include(section, other);
         }
     }

@@ -42,7 +42,6 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     prepared.profile(&voxels, vessel, request, found)
 }
 
-/// The point spread that a vessel shows itself, or the assumed one.
 pub(super) fn own_spread(prepared: &PreparedVessel, voxels: &Voxels, stop: Stop) -> Result<PointSpread> {
     Ok(match prepared.point_spread(voxels, stop)? {
         SpreadEstimate::Width(found) => spread_of(&found, found.on()),

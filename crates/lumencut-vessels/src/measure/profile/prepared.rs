@@ -186,7 +186,6 @@ impl PreparedVessel {
         Self { wall: None, ..self.part(|_| true) }
     }
 
-    /// The same vessel with walls of plaque.
     pub(super) fn with_bright_wall(&self) -> Self {
         let wall = Some(KnownWall::of(BRIGHT_WALL, &self.scale));
         Self { wall, wall_source: WallSource::Bright, ..self.part(|_| true) }
@@ -362,9 +361,11 @@ fn no_lumen(scale: &Scale) -> Error {
 }
 
 fn too_noisy(scale: &Scale, noise: f64) -> Error {
-    let [contrast, noise] = [1.0, noise].map(|share| in_words(share * scale.contrast.abs()));
-    let found = format!("a contrast of {contrast} and noise of {noise}");
-    let expected = "a contrast of at least twice the noise";
+    let [lumen, outside, noise] =
+        [scale.value(1.0), scale.outside, noise * scale.contrast.abs()].map(in_words);
+    let found =
+        format!("no wall around it: {lumen} on the vessel and {outside} next to it, with noise of {noise}");
+    let expected = "a lumen that differs from its surroundings by twice the noise";
     let mend = "smooth the volume, and check that the centerlines lie in the lumen";
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }

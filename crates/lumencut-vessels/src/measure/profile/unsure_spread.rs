@@ -74,6 +74,6 @@ pub(super) fn is_same_lumen(before: f64, after: f64) -> bool {
     after < SAME_LUMEN * before && before < SAME_LUMEN * after
 }
 
-fn diameter(fit: &Fit) -> f64 {
+pub(super) fn diameter(fit: &Fit) -> f64 {
     fit.ellipse.equivalent_diameter()
 }

@@ -19,11 +19,10 @@ const SHARED_WIDTHS: [f64; 2] = [5.0, 2.0];
 /// Minimum fraction of the sections in which the wall must be visible.
 const MIN_VISIBLE_WALLS: f64 = 1.0 / 3.0;
 
-/// A fit shows no wall if its residuals exceed this multiple of the median: metal, or a lumen that ends there.
+/// A fit shows no wall if its residuals exceed this multiple of the median.
 const NOT_DESCRIBED: f64 = 2.0;
 
-/// A section whose wall differs from the expected level by more than this multiple of both standard deviations does not share
-/// the level: plaque in one place does not make the wall elsewhere brighter.
+/// Plaque does not share its level: it differs from the expected one by this multiple of both standard deviations.
 const OTHER_LEVEL: f64 = 2.0;
 
 /// Pooled wall at each section. `inflation` is the variance factor of correlated noise, `known` the prior
@@ -101,7 +100,6 @@ fn level_by(
     first
 }
 
-/// Level that a section shows itself; None if it only repeats the prior.
 fn own_level(wall: &Wall, known: &KnownWall) -> Option<Level> {
     let mut own = WeightedLevel { precision: 0.0, weighted: 0.0 };
     own.add(wall.level, known.level, 1.0);
