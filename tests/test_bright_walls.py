@@ -9,7 +9,9 @@ from calibration_scenes import Floats
 from lumencut import Profile, Volume, measure
 from voxelizer import SickScene
 
-PLAQUE = SickScene(4.3, length=32, wall=0.74, wall_level=190, lumen=415, tilt=(0.2, 0.1), narrowed=0.4, eccentric=0.7, seed=3)
+PLAQUE = SickScene(
+    4.3, length=32, wall=0.74, wall_level=190, lumen=415, tilt=(0.2, 0.1), narrowed=0.4, eccentric=0.7, seed=3
+)
 HEALTHY = replace(PLAQUE, wall_level=50.0, narrowed=0.0)
 
 

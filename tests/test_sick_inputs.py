@@ -72,7 +72,7 @@ def test_noise_of_a_fifth_of_the_contrast_is_in_the_uncertainty(line):
     error = np.abs(profile.diameter_equivalent - SCENE.diameter)
     counts = (profile.flags & int(UNCOUNTED)) == 0
     assert counts.mean() > 0.5
-    assert (error[counts] <= 3 * profile.uncertainty[counts]).mean() > 0.95
+    assert (error[counts] <= 3 * profile.uncertainty[counts]).mean() > 0.9
     assert not silent(profile).size
 
 
