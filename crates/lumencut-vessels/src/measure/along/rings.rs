@@ -48,24 +48,20 @@ fn join_rings(at: &[f64], flags: &mut [u32]) {
         }
     }
     join(at, flags, |between| match between.stents {
-        true => between.dark <= RINGS && between.length <= BETWEEN_STENTS,
-        false => between.dark == 0.0 && between.length <= BRIGHT_BETWEEN,
+        true => between.longest_dark <= RINGS && between.length <= BETWEEN_STENTS,
+        false => between.longest_dark == 0.0 && between.length <= BRIGHT_BETWEEN,
     });
     for flags in flags.iter_mut().filter(|flags| **flags & METAL != 0) {
         *flags &= !LIKE_STRUTS;
     }
 }
 
-/// What lies between two stretches of metal (mm).
 struct Between {
     length: f64,
-    /// Longest part without what may be struts.
-    dark: f64,
-    /// Between stents, a vessel beside may be struts.
+    longest_dark: f64,
     stents: bool,
 }
 
-/// Joins neighbouring stretches of metal that `is_one` finds to be one.
 fn join(at: &[f64], flags: &mut [u32], is_one: impl Fn(&Between) -> bool) {
     for two in runs(flags, METAL).windows(2) {
         let [first, last] = [two[0].end - 1, two[1].start];
@@ -73,7 +69,8 @@ fn join(at: &[f64], flags: &mut [u32], is_one: impl Fn(&Between) -> bool) {
         let like = METAL | if stents { LIKE_STRUTS } else { CALCIUM };
         let bright = runs(&flags[first..=last], like);
         let dark = bright.windows(2).map(|two| at[first + two[1].start] - at[first + two[0].end - 1]);
-        let between = Between { length: at[last] - at[first], dark: dark.fold(0.0, f64::max), stents };
+        let between =
+            Between { length: at[last] - at[first], longest_dark: dark.fold(0.0, f64::max), stents };
         if is_one(&between) {
             for flags in &mut flags[first..last] {
                 *flags |= METAL;
@@ -82,7 +79,6 @@ fn join(at: &[f64], flags: &mut [u32], is_one: impl Fn(&Between) -> bool) {
     }
 }
 
-/// The stretches with one of the flags `of`.
 fn runs(flags: &[u32], of: u32) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for n in (0..flags.len()).filter(|n| flags[*n] & of != 0) {

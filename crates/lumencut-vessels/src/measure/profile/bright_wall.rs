@@ -23,7 +23,6 @@ pub(super) enum BrightWall {
 }
 
 impl PreparedVessel {
-    /// Measures a vessel whose wall looks bright again; `sections` are those of the first reading.
     pub(super) fn bright_wall(
         &self,
         voxels: &Voxels,

@@ -69,7 +69,6 @@ impl PreparedVessel {
     }
 }
 
-/// Whether diameters of two fits (mm) can be those of one lumen.
 pub(super) fn is_same_lumen(before: f64, after: f64) -> bool {
     after < SAME_LUMEN * before && before < SAME_LUMEN * after
 }
