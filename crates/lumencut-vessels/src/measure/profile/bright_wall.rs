@@ -17,9 +17,10 @@ use lumencut_core::stop::Stop;
 /// The second reading is shown, or refuted, if its squared residuals differ by this many standard errors.
 const SHOWN: f64 = 2.0;
 
-pub(super) enum BrightWall {
-    Shown(Box<PreparedVessel>, PointSpread),
-    Possible(Vec<Section>),
+#[derive(Default)]
+pub(super) struct BrightWall {
+    pub(super) shown: Option<(PreparedVessel, PointSpread)>,
+    pub(super) possible: Option<Vec<Section>>,
 }
 
 impl PreparedVessel {
@@ -29,9 +30,9 @@ impl PreparedVessel {
         sections: &[Section],
         spread: &PointSpread,
         stop: Stop,
-    ) -> Result<Option<BrightWall>> {
+    ) -> Result<BrightWall> {
         if !self.looks_bright(voxels, spread.fwhm, stop)? {
-            return Ok(None);
+            return Ok(BrightWall::default());
         }
         let bright = self.with_bright_wall();
         let spread = match spread.source {
@@ -41,7 +42,7 @@ impl PreparedVessel {
         let read = match bright.read(voxels, [spread.fwhm, spread.deviation], None, stop) {
             Ok(read) => read,
             Err(error) if error.kind == ErrorKind::Interrupted => return Err(error),
-            Err(_) => return Ok(None),
+            Err(_) => return Ok(BrightWall::default()),
         };
         let free = |one: &Section| one.fit.filter(|_| one.flags == 0);
         let pairs: Vec<Option<(Fit, Fit)>> =
@@ -49,10 +50,10 @@ impl PreparedVessel {
         let better = better(&pairs, read.every);
         // A wide blur looks like a bright wall.
         let is_sure = !matches!(spread.source, Source::Assumed { .. });
-        Ok(match better {
-            better if better > SHOWN => Some(BrightWall::Shown(Box::new(bright), spread)),
-            better if is_sure && better > -SHOWN => Some(BrightWall::Possible(read.sections)),
-            _ => None,
+        let is_possible = is_sure && better.abs() <= SHOWN;
+        Ok(BrightWall {
+            shown: (better > SHOWN).then_some((bright, spread)),
+            possible: is_possible.then_some(read.sections),
         })
     }
 
@@ -65,13 +66,13 @@ impl PreparedVessel {
         let level = self.wall_level(voxels, fwhm, stop)?;
         Ok(level.is_some_and(|[level, deviation]| level - deviation > expected + unsure))
     }
-}
 
-pub(super) fn include_bright(sections: &mut [Section], bright: &[Section]) {
-    for (section, bright) in sections.iter_mut().zip(bright) {
-        let (Some(own), Some(other)) = (&section.fit, &bright.fit) else { continue };
-        if is_same_lumen(diameter(own), diameter(other)) {
-            include(section, other);
+    pub(super) fn include_bright(sections: &mut [Section], bright: &[Section]) {
+        for (section, bright) in sections.iter_mut().zip(bright) {
+            let (Some(own), Some(other)) = (&section.fit, &bright.fit) else { continue };
+            if is_same_lumen(diameter(own), diameter(other)) {
+                include(section, other);
+            }
         }
     }
 }

@@ -6,7 +6,6 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use super::bright_wall::{BrightWall, include_bright};
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::assumed_spread::AssumedSpread;
@@ -253,12 +252,12 @@ impl PreparedVessel {
         }
         let mut sections = std::mem::take(&mut read.sections);
         let bright = self.bright_wall(voxels, &sections, &spread, request.stop)?;
-        if let Some(BrightWall::Shown(bright, spread)) = bright {
+        if let Some((bright, spread)) = bright.shown {
             let findings = TreeFindings { spread, walls: Vec::new() };
             return bright.profile(voxels, vessel, request, findings);
         }
-        if let Some(BrightWall::Possible(bright)) = &bright {
-            include_bright(&mut sections, bright);
+        if let Some(bright) = &bright.possible {
+            Self::include_bright(&mut sections, bright);
         }
         let others = Lumen::of_others(request.tree, vessel);
         for (n, section) in sections.iter_mut().enumerate() {
@@ -288,7 +287,7 @@ impl PreparedVessel {
         flag_stents(bench, &self.places, &mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,
-            _ if bright.is_some() => WallSource::PerhapsBright,
+            _ if bright.possible.is_some() => WallSource::PerhapsBright,
             Some(by_others) => self.wall_source.pooled(by_others),
             None => self.wall_source,
         };
