@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use crate::along_vessels::Legend;
 use crate::axes_words::Axes;
-use crate::lumen_map::{ostia, thickness};
+use crate::lumen_map::{ostia, thickness, walls};
 use crate::lumen_wall::{FoundWall, lumen_wall};
 use crate::network;
 use crate::study::failure::{Failure, Result};
@@ -197,7 +197,7 @@ impl Study {
         let Some(named) = self.content.named.as_ref() else { return Vec::new() };
         let places: Vec<(usize, [f64; 2])> = match laid {
             Laid::Untangled(layout) => layout.ends().iter().map(DVec2::to_array).enumerate().collect(),
-            Laid::Map(layout, _) => ostia(layout, named.leveled.tree().vessels())
+            Laid::Map(layout, _) => ostia(&walls(layout), named.leveled.tree().vessels())
                 .iter()
                 .map(|one| {
                     (one.vessel, [layout.column(one.around), one.at / layout.parameters().pixel_spacing])
