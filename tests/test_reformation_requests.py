@@ -7,6 +7,7 @@ import pytest
 
 import lumencut
 from lumencut.cli.laid_out.reformation_table import MAP_MODES
+from lumencut.reformations.endoscoping import EndoscopyRequest
 from lumencut.reformations.feature_aggregation import CfaRequest
 from lumencut.reformations.lumen_mapping import LumenMapRequest
 from lumencut.reformations.planar_reformation import CprRequest
@@ -19,6 +20,7 @@ from lumencut.reformations.untangling import UntangledRequest
 MADE_BY = {
     "cpr": CprRequest,
     "cfa": CfaRequest,
+    "endoscopy": EndoscopyRequest,
     "spiral": SpiralRequest,
     "lumen_map": LumenMapRequest,
     "uncurl": UncurlRequest,

@@ -53,8 +53,8 @@ if TYPE_CHECKING:
     from lumencut.pictures.one_view import render
     from lumencut.pictures.renderer import Renderer
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
-    from lumencut.reformations.endoscoping import endoscopy
     from lumencut.reformations.endoscopic_view import Endoscopy
+    from lumencut.reformations.endoscoping import endoscopy
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map

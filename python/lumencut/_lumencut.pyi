@@ -465,7 +465,7 @@ class Inside:
         self,
         volume: Any,
         at: float,
-        lens: tuple[str, float],
+        lens: tuple[str, float | None],
         size: tuple[int, int],
         turned: tuple[float, bool],
     ) -> Endoscopy: ...

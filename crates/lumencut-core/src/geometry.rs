@@ -116,7 +116,8 @@ impl Rays {
     pub fn new(size: [usize; 2], origin: DVec3, direction: Vec<Vec3>, span: Vec<[f32; 2]>) -> Result<Self> {
         let pixels = size[0] * size[1];
         if pixels == 0 || direction.len() != pixels || span.len() != pixels {
-            let found = format!("{} directions and {} spans for {size:?} pixels", direction.len(), span.len());
+            let found =
+                format!("{} directions and {} spans for {size:?} pixels", direction.len(), span.len());
             let expected = "at least one pixel, with one direction and one span each";
             return Err(Error::new(ErrorKind::Camera, "rays by pixel", found, expected));
         }

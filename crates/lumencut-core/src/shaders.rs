@@ -49,6 +49,7 @@ pub const SHADERS: &[Shader] = shaders![
     "math/tile",
     "math/trace",
     "math/transfer",
+    "math/tube",
     "math/view",
     "math/walk",
     "math/walls",
@@ -67,4 +68,5 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/rim",
     "stages/silhouette",
     "stages/surface",
+    "stages/wall",
 ];

@@ -34,3 +34,4 @@ mod surface;
 mod tests;
 mod view;
 mod volume;
+pub mod wall;

@@ -36,7 +36,7 @@ impl Inside {
         py: Python<'py>,
         volume: VolumeArgument<'py>,
         at: f64,
-        lens: (&str, f64),
+        lens: (&str, Option<f64>),
         size: [usize; 2],
         turned: (f64, bool),
     ) -> PyResult<Bound<'py, Endoscopy>> {
@@ -72,7 +72,8 @@ impl Inside {
         values: PyReadonlyArray2<'py, f32>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let (height, width) = shades.as_array().dim();
-        let [shades, values] = [shades, values].map(|image| image.as_array().iter().copied().collect::<Vec<_>>());
+        let [shades, values] =
+            [shades, values].map(|image| image.as_array().iter().copied().collect::<Vec<_>>());
         let pixels = py.detach(|| self.0.picture(&shades, &values)).into_flattened();
         PyArray1::from_vec(py, pixels).reshape([height, width, 4])
     }
@@ -122,7 +123,11 @@ impl Endoscopy {
 
     /// Brightness of the wall in the light of the eye (0 to 1), shape (H, W).
     #[allow(clippy::needless_pass_by_value)]
-    fn shades<'py>(&self, py: Python<'py>, volume: VolumeArgument<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    fn shades<'py>(
+        &self,
+        py: Python<'py>,
+        volume: VolumeArgument<'py>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let borrowed = volume.borrow()?;
         let volume = volume.volume(&borrowed)?;
         self.shaped(py, computed(py, |stop| endoscopy::shades(&self.0, &volume, stop))?)
@@ -130,7 +135,11 @@ impl Endoscopy {
 }
 
 impl Endoscopy {
-    fn shaped<'py, T: numpy::Element>(&self, py: Python<'py>, image: Vec<T>) -> PyResult<Bound<'py, PyArray2<T>>> {
+    fn shaped<'py, T: numpy::Element>(
+        &self,
+        py: Python<'py>,
+        image: Vec<T>,
+    ) -> PyResult<Bound<'py, PyArray2<T>>> {
         let [width, height] = self.0.size();
         PyArray1::from_vec(py, image).reshape([height, width])
     }

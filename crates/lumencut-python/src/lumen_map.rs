@@ -17,8 +17,8 @@ use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::errors::to_python;
 use crate::endoscopy::Inside;
+use crate::errors::to_python;
 use crate::layout::Layout;
 use crate::measuring::Profile;
 use crate::pool;
@@ -71,7 +71,11 @@ impl LumenWall {
     fn inside(&self, py: Python<'_>) -> PyResult<Inside> {
         let inside = || -> Result<_> {
             let straightened = Straightened::new(Arc::clone(&self.path), &self.view)?;
-            endoscopy::Inside::new((Arc::clone(&self.path), straightened), &self.found, self.profile.as_deref())
+            endoscopy::Inside::new(
+                (Arc::clone(&self.path), straightened),
+                &self.found,
+                self.profile.as_deref(),
+            )
         };
         py.detach(|| pool::install(inside))?.map(Inside).map_err(to_python)
     }

@@ -45,8 +45,8 @@ pub struct EndoscopyRequest {
     pub at: f64,
     /// The lens.
     pub lens: Lens,
-    /// Field of view across the smaller side (radians).
-    pub field_of_view: f64,
+    /// Field of view across the smaller side (radians); None: the usual one of the lens.
+    pub field_of_view: Option<f64>,
     /// Columns and rows.
     pub size: [usize; 2],
     /// Rotation of the picture clockwise (radians).
@@ -94,7 +94,7 @@ impl Inside {
     /// lens that cannot be; [`lumencut_core::error::ErrorKind::Interrupted`].
     pub fn seen(&self, volume: &Volume, request: &EndoscopyRequest, stop: Stop) -> Result<Endoscopy> {
         let EndoscopyRequest { at, lens, field_of_view, size, roll, is_backwards } = *request;
-        let image = LensImage::new(lens, size, field_of_view)?;
+        let image = LensImage::new(lens, size, field_of_view.unwrap_or(lens.usual_field_of_view()))?;
         let paths = [&*self.path, &self.smooth];
         let eye = Eye::new(paths, &self.straightened, [at, self.radius(at), roll], is_backwards)?;
         beyond(volume, |beyond| Endoscopy::new(Arc::clone(&self.tube), eye, image, (beyond, stop)))
@@ -225,7 +225,8 @@ fn bounds_of(levels: Option<[f64; 2]>) -> Bounds {
         return Bounds { level: never, calcium: never, is_bright: true };
     };
     let is_bright = lumen > around;
-    let calcium = if is_bright { calcium_level([lumen, around]) } else { lumen + TOO_BRIGHT * (lumen - around) };
+    let calcium =
+        if is_bright { calcium_level([lumen, around]) } else { lumen + TOO_BRIGHT * (lumen - around) };
     Bounds { level: f64::midpoint(lumen, around), calcium, is_bright }
 }
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from lumencut.base.public_names import public_name
 
 if TYPE_CHECKING:
-    from lumencut.reformations.endoscoping import endoscopy
     from lumencut.reformations.endoscopic_view import Endoscopy
+    from lumencut.reformations.endoscoping import endoscopy
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map

@@ -39,7 +39,8 @@ class Endoscopy(Reformation):
     """The inside of a vessel as an image (H, W), made by :func:`lumencut.endoscopy`.
 
     Each pixel is a ray from the eye. A world point has the pixel of its direction, NaN outside the image and
-    behind the wall. `pixel_spacing` is the side of the middle pixel at a distance of 1 mm; no pixel is folded.
+    behind the wall. No pixel is folded. `pixel_spacing` is the side of the middle pixel at a distance of
+    1 mm.
 
     Attributes
     ----------
@@ -97,12 +98,12 @@ class Endoscopy(Reformation):
 
     @functools.cached_property
     def distance(self) -> npt.NDArray[np.float64]:
-        """Distance of the wall from the centerline (mm), float64, shape (H, W), NaN without the vessel's wall."""
+        """Distance of the wall from the centerline (mm), float64, shape (H, W), NaN in openings."""
         return self._core.radius()
 
     @functools.cached_property
     def open(self) -> npt.NDArray[np.bool_]:
-        """Which pixels look through an opening of the wall or beyond an end of the vessel, bool, shape (H, W)."""
+        """Which pixels look through an opening of the wall or beyond an end, bool, shape (H, W)."""
         return self._core.open()
 
     @property

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy.typing as npt
 
-from lumencut.base.checks import choice, flag, number, numbers
+from lumencut.base.checks import flag, number, numbers
 from lumencut.errors import CameraError
 from lumencut.measuring.profile import Profile
 from lumencut.pictures.renderer import Renderer
@@ -18,11 +18,6 @@ from lumencut.reformations.lumen_mapping import found_wall
 from lumencut.reformations.request import HEAD, ReformationRequest
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
-
-LENSES = ("perspective", "fisheye")
-
-#: The fields of view (radians) if none is given.
-_FIELDS = {"perspective": math.radians(100.0), "fisheye": math.pi}
 
 
 def endoscopy(
@@ -57,8 +52,8 @@ def endoscopy(
     at : float
         The place of the eye along the vessel (mm).
     lens : {"perspective", "fisheye"}, default "perspective"
-        ``"perspective"`` keeps straight lines straight. With ``"fisheye"``, angles from the middle are distances
-        in a round image.
+        ``"perspective"`` keeps straight lines straight. With ``"fisheye"``, angles from the middle are
+        distances in a round image.
     field_of_view : float, optional
         The angle across the smaller side of the image (radians); default: 100° in perspective, 180° with
         ``"fisheye"``.
@@ -85,9 +80,9 @@ def endoscopy(
         For a vessel of another kind or without length, and for one without radii whose lumen cannot be
         measured either.
     CameraError
-        For a place beyond the vessel, and a lens, field of view, size or roll that cannot be.
+        For a place beyond the vessel, and a field of view, size or roll that cannot be.
     SettingsError
-        For a smoothing out of range.
+        For another lens, or a smoothing out of range.
     MeasuringError
         For an invalid profile.
     VolumeError
@@ -126,13 +121,12 @@ class EndoscopyRequest(ReformationRequest):
     def of(self, renderer: Renderer, vessel: Vessel) -> Endoscopy:
         """Return what an eye in a vessel sees, in the scene of a renderer."""
         grid = self._volume(renderer, vessel)
-        choice(CameraError, "lens of the endoscopy", self.lens, LENSES)
         flag(CameraError, "backwards", self.backwards)
         finite("at", self.at)
         width_height = numbers(CameraError, "size of the endoscopy", self.size, (2,))
         if not (width_height == width_height.round()).all():
             raise CameraError("size of the endoscopy", f"{self.size}", "two whole numbers of pixels")
-        asked = self.checked(field_of_view=_FIELDS[self.lens])
+        asked = self.checked()
         wall, known = found_wall(grid, vessel, self, asked)
         seen = SeenVessel(renderer, wall.inside(), known, self.tree)
         return Endoscopy(seen, flat_settings(None), asked)

@@ -152,7 +152,7 @@ class LumenMapRequest(ReformationRequest):
 def found_wall(
     volume: Any, vessel: Vessel, asked: Any, checked: dict[str, Any]
 ) -> tuple[_lumencut.LumenWall, Profile | None]:
-    """Return the wall of a vessel for a request and its checked parameters, and the profile, if there is one."""
+    """Return the wall of a vessel for a request with checked parameters, and the profile, if any."""
     profile, tree = asked.profile, asked.tree
     if not isinstance(profile, (Profile, type(None))):
         raise MeasuringError(f"profile of the {asked.subject}", type(profile).__name__, "a Profile or None")

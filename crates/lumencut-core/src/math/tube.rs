@@ -6,13 +6,16 @@ use glam::{DVec3, Vec3, Vec4};
 /// Number of radii in a row, at even steps of the [turn](turn_of).
 pub const AROUND: usize = 256;
 /// A ray advances by this share of the way on which a straight wall would end it.
-const NEWTON: f32 = 0.95;
+pub const NEWTON: f32 = 0.95;
 /// The shortest and longest step of a ray, as shares of the radius around it.
-const STEPS: [f32; 2] = [0.02, 0.5];
+pub const SHORTEST: f32 = 0.02;
+pub const LONGEST: f32 = 0.5;
 /// Number of steps by which the place of a wall is refined.
-const REFINED: usize = 5;
+pub const REFINED: usize = 5;
 /// A ray ends after this many steps.
-const MAX_STEPS: usize = 1000;
+pub const MAX_STEPS: usize = 1000;
+/// Least divisor.
+pub const LEAST: f32 = 1e-9;
 
 /// A place on the course of a vessel. Has the layout of `TubeRow` in `math/tube.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -59,7 +62,7 @@ pub enum Met {
 
 /// From 0 to 4 once around, by a ratio that is cheaper than an angle.
 pub fn turn_of([x, y]: [f32; 2]) -> f32 {
-    let share = y / (x.abs() + y.abs()).max(f32::MIN_POSITIVE);
+    let share = y / (x.abs() + y.abs()).max(LEAST);
     let turn = if x < 0.0 { 2.0 - share } else { share };
     if turn < 0.0 { turn + 4.0 } else { turn }
 }
@@ -158,7 +161,7 @@ impl Tube {
             }
             before = away;
             let straight = NEWTON * inside / rise.max(1e-3);
-            away = (away + straight.clamp(STEPS[0] * radius, STEPS[1] * radius)).min(end);
+            away = (away + straight.clamp(SHORTEST * radius, LONGEST * radius)).min(end);
             place = self.find(eye + ray * away, place.row);
         }
         Met::Nothing
@@ -171,7 +174,7 @@ impl Tube {
         let away = (x * x + y * y).sqrt();
         let across = xyz(at.across);
         let ahead = across.cross(xyz(at.tangent));
-        let rise = (x * ray.dot(across) + y * ray.dot(ahead)) / away.max(1e-6);
+        let rise = (x * ray.dot(across) + y * ray.dot(ahead)) / away.max(LEAST);
         let radius = self.radius(place).0;
         [radius - away, rise, radius]
     }
@@ -182,7 +185,7 @@ impl Tube {
         let depth = |away: f32| self.inside(&at(away), ray)[0];
         let (mut inside, mut outside) = (depth(low), depth(high));
         for _ in 0..REFINED {
-            let share = (inside / (inside - outside).max(1e-9)).clamp(0.05, 0.95);
+            let share = (inside / (inside - outside).max(LEAST)).clamp(0.05, 0.95);
             let middle = low + (high - low) * share;
             let found = depth(middle);
             if found > 0.0 {
@@ -191,7 +194,7 @@ impl Tube {
                 (high, outside) = (middle, found);
             }
         }
-        let away = low + (high - low) * (inside / (inside - outside).max(1e-9)).clamp(0.0, 1.0);
+        let away = low + (high - low) * (inside / (inside - outside).max(LEAST)).clamp(0.0, 1.0);
         let place = at(away);
         if self.radius(&place).1 { Met::Opening(away, place.row) } else { Met::Wall(away) }
     }
@@ -202,7 +205,7 @@ impl Tube {
         let (tangent, across) = (xyz(at.tangent), xyz(at.across));
         let ahead = across.cross(tangent);
         let [x, y] = place.offset;
-        let away = (x * x + y * y).sqrt().max(1e-6);
+        let away = (x * x + y * y).sqrt().max(LEAST);
         let turn = reach / away.max(reach);
         let [before, after] = [-turn, turn].map(|by| {
             let (sine, cosine) = by.sin_cos();

@@ -2,6 +2,7 @@
 //! [`Tube`]. Through its openings a ray goes on in the volume, until the values fall halfway from lumen to surroundings, or rise
 //! to calcium.
 
+use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -10,6 +11,41 @@ use crate::error::Result;
 use crate::geometry::Rays;
 use crate::math::tube::{Met, Tube};
 use crate::stop::filled;
+use crate::volume::Volume;
+
+/// The eye and the grid of the volume in the space of a tube. Has the layout of `WallParameters` in `math/tube.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub struct WallParameters {
+    pub eye: [f32; 4],
+    pub origin: [f32; 4],
+    pub x: [f32; 4],
+    pub y: [f32; 4],
+    pub z: [f32; 4],
+    pub size: [u32; 2],
+    pub rows: u32,
+    pub near: u32,
+}
+
+impl WallParameters {
+    /// For samples `step` mm apart beyond openings; `near` is the row of the tube next to the eye.
+    pub fn new(rays: &Rays, (tube, near): (&Tube, usize), volume: &Volume, step: f32) -> Self {
+        let (origin, row_step) = tube.origin_and_step();
+        let index = volume.index_from_world();
+        let with = |vector: DVec3, last: f32| vector.as_vec3().extend(last).to_array();
+        let [x, y, z] = DVec3::AXES.map(|axis| with(index.transform_vector3(axis), 0.0));
+        Self {
+            eye: with(rays.origin() - origin, row_step),
+            origin: with(index.transform_point3(origin), step),
+            x,
+            y,
+            z,
+            size: rays.size().map(|n| n as u32),
+            rows: tube.tables().0.len() as u32,
+            near: near as u32,
+        }
+    }
+}
 
 /// The volume beyond openings.
 pub struct Beyond<'a> {
@@ -42,7 +78,12 @@ pub fn wall(work: &Work, rays: &Rays, (tube, near): (&Tube, usize), beyond: &Bey
 }
 
 /// The distance (mm) at which a ray that has passed an opening next to `row` leaves the lumen.
-fn followed(tube: &Tube, [eye, ray]: [Vec3; 2], ([start, end], row): ([f32; 2], usize), beyond: &Beyond) -> f32 {
+fn followed(
+    tube: &Tube,
+    [eye, ray]: [Vec3; 2],
+    ([start, end], row): ([f32; 2], usize),
+    beyond: &Beyond,
+) -> f32 {
     let row = &tube.tables().0[row];
     let ([_, _, _, level], [_, _, _, calcium], [_, _, _, sign]) = (row.middle, row.tangent, row.across);
     let origin = tube.origin_and_step().0;

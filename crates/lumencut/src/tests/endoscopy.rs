@@ -24,7 +24,8 @@ fn volume(values: &[f32]) -> Volume<'_> {
 }
 
 fn inside(aside: f64) -> Inside {
-    let line = Vessel::new(vec![DVec3::new(aside, 0.0, 40.0), DVec3::new(aside, 0.0, 0.0)], None).expect("a vessel");
+    let line =
+        Vessel::new(vec![DVec3::new(aside, 0.0, 40.0), DVec3::new(aside, 0.0, 0.0)], None).expect("a vessel");
     of(line, 4.0)
 }
 
@@ -40,7 +41,7 @@ fn of(line: Vessel, radius: f64) -> Inside {
 const REQUEST: EndoscopyRequest = EndoscopyRequest {
     at: 10.0,
     lens: Lens::Perspective,
-    field_of_view: 1.8,
+    field_of_view: Some(1.8),
     size: [41, 41],
     roll: 0.0,
     is_backwards: false,
@@ -56,7 +57,8 @@ fn a_mouth_is_seen_ahead_of_the_eye_only() {
     let ostia = inside.ostia(&tree);
     assert!(ostia.len() == 1 && (ostia[0].at - 20.0).abs() < 0.5);
     let seen = |at: f64, is_backwards: bool| {
-        let made = inside.seen(&volume, &EndoscopyRequest { at, is_backwards, ..REQUEST }, NEVER).expect("a view");
+        let made =
+            inside.seen(&volume, &EndoscopyRequest { at, is_backwards, ..REQUEST }, NEVER).expect("a view");
         inside.mouth(&made, &ostia[0])
     };
     // The vessel runs downwards, so the patient's left is on the left of a viewer who looks along it.
@@ -78,13 +80,17 @@ fn an_eye_outside_the_lumen_is_doubted() {
     };
     assert_eq!(doubts(0.0), [""; 0]);
     let words = doubts(9.0).join("");
-    assert!(words.contains("10 mm along the vessel is outside the lumen: found 0; expected at least 150"), "{words}");
+    assert!(
+        words.contains("10 mm along the vessel is outside the lumen: found 0; expected at least 150"),
+        "{words}"
+    );
 }
 
 #[test]
 fn calcium_is_white_and_what_has_no_wall_transparent() {
     let inside = inside(0.0);
-    let [tissue, calcium, none] = [0, 1, 2].map(|n| inside.picture(&[1.0, 1.0, f32::NAN], &[0.0, 900.0, 0.0])[n]);
+    let [tissue, calcium, none] =
+        [0, 1, 2].map(|n| inside.picture(&[1.0, 1.0, f32::NAN], &[0.0, 900.0, 0.0])[n]);
     assert!(tissue[0] > tissue[2] + 50 && calcium.iter().all(|byte| *byte > 230), "{tissue:?}, {calcium:?}");
     assert_eq!(none, [0; 4]);
 }
@@ -92,10 +98,15 @@ fn calcium_is_white_and_what_has_no_wall_transparent() {
 #[test]
 fn a_flight_keeps_its_speed_and_slows_down_in_bends() {
     let straight = inside(0.0).flight([5.0, 35.0], 10.0, 4.0).expect("a flight");
-    assert!(straight.len() == 13 && straight.iter().enumerate().all(|(n, at)| (at - 5.0 - 2.5 * n as f64).abs() < 1e-9));
+    assert!(
+        straight.len() == 13
+            && straight.iter().enumerate().all(|(n, at)| (at - 5.0 - 2.5 * n as f64).abs() < 1e-9)
+    );
     let back = inside(0.0).flight([35.0, 5.0], 10.0, 4.0).expect("a flight");
     assert!((back[1] - 32.5).abs() < 1e-9);
-    for (places, speed) in [([5.0, 5.0], 10.0), ([5.0, 50.0], 10.0), ([5.0, 35.0], 0.0), ([5.0, 35.0], f64::NAN)] {
+    for (places, speed) in
+        [([5.0, 5.0], 10.0), ([5.0, 50.0], 10.0), ([5.0, 35.0], 0.0), ([5.0, 35.0], f64::NAN)]
+    {
         assert!(inside(0.0).flight(places, speed, 4.0).is_err(), "{places:?}, {speed}");
     }
     // A half circle of 10 mm radius takes at least 3 s.

@@ -29,6 +29,14 @@ impl Named for Lens {
 }
 
 impl Lens {
+    /// The field of view if none is given (radians).
+    pub fn usual_field_of_view(self) -> f64 {
+        match self {
+            Self::Perspective => 100_f64.to_radians(),
+            Self::Fisheye => PI,
+        }
+    }
+
     /// The largest field of view (radians).
     fn widest(self) -> f64 {
         match self {
@@ -55,7 +63,8 @@ impl LensImage {
         };
         if size.contains(&0) || size.iter().any(|n| *n > MAX_SIZE) || size[0] * size[1] > MAX_PIXELS {
             let found = format!("{} × {} pixels", size[0], size[1]);
-            let expected = format!("at least one pixel, at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
+            let expected =
+                format!("at least one pixel, at most {MAX_SIZE} along each side and {MAX_PIXELS} in all");
             return camera("size of the endoscopy", found, expected);
         }
         if !(field_of_view > 0.0 && field_of_view <= lens.widest()) {
@@ -72,8 +81,7 @@ impl LensImage {
     /// Direction to the right, upwards and ahead (unit) at an image position; None outside the circle of a fisheye.
     pub(super) fn direction(&self, pixel: DVec2) -> Option<DVec3> {
         let [width, height] = self.size.map(|n| n as f64);
-        let place =
-            DVec2::new(2.0 * pixel.x + 1.0 - width, height - 1.0 - 2.0 * pixel.y) / width.min(height);
+        let place = DVec2::new(2.0 * pixel.x + 1.0 - width, height - 1.0 - 2.0 * pixel.y) / width.min(height);
         match self.lens {
             Lens::Perspective => Some((place * self.half.tan()).extend(1.0).normalize()),
             Lens::Fisheye => {

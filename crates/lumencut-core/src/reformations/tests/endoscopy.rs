@@ -36,7 +36,12 @@ fn line(length: f64) -> Vec<DVec3> {
 }
 
 impl Scene {
-    fn seen(&self, [at, radius, roll]: [f64; 3], image: LensImage, value: &(dyn Fn(DVec3) -> f32 + Sync)) -> Endoscopy {
+    fn seen(
+        &self,
+        [at, radius, roll]: [f64; 3],
+        image: LensImage,
+        value: &(dyn Fn(DVec3) -> f32 + Sync),
+    ) -> Endoscopy {
         let eye = Eye::new([&self.path; 2], &self.straightened, [at, radius, roll], false).unwrap();
         let beyond = Beyond { value, step: 0.25 };
         Endoscopy::new(Arc::clone(&self.tube), eye, image, (&beyond, NEVER)).unwrap()
@@ -120,7 +125,8 @@ fn pixels_and_places_return() {
 fn roll_turns_the_image_and_the_eye_is_on_the_centerline() {
     let scene = scene(&line(100.0), |_, around| 6.0 + around.cos(), |_, _| false);
     let square = || LensImage::new(Lens::Perspective, [41, 41], 1.5).unwrap();
-    let [upright, turned] = [0.0, FRAC_PI_2].map(|roll| scene.seen([30.0, 6.0, roll], square(), &|_| f32::NAN));
+    let [upright, turned] =
+        [0.0, FRAC_PI_2].map(|roll| scene.seen([30.0, 6.0, roll], square(), &|_| f32::NAN));
     assert!(upright.eye().position.distance(DVec3::new(1.0, 2.0, 70.0)) < 1e-9);
     for n in 0..41 * 41 {
         let (i, j) = (n % 41, n / 41);
@@ -160,7 +166,9 @@ fn wrong_lenses_and_places_are_rejected() {
         assert!(error.to_string().contains("0 to 50.0000 mm"), "{error}");
     }
     assert!(Eye::new([&scene.path; 2], &scene.straightened, [9.0, 5.0, f64::NAN], false).is_err());
-    for (lens, wide) in [(Lens::Perspective, 3.0), (Lens::Fisheye, 6.3), (Lens::Fisheye, 0.0), (Lens::Fisheye, f64::NAN)] {
+    for (lens, wide) in
+        [(Lens::Perspective, 3.0), (Lens::Fisheye, 6.3), (Lens::Fisheye, 0.0), (Lens::Fisheye, f64::NAN)]
+    {
         assert!(LensImage::new(lens, [9, 9], wide).is_err(), "{wide}");
     }
     assert!(LensImage::new(Lens::Fisheye, [0, 9], 1.0).is_err());
