@@ -123,7 +123,7 @@ def test_other_views_reuse_the_wall(tube, profile):
     alone = endoscopy(tube, LINE, 25.0, size=(31, 31), roll=math.pi / 2, profile=profile, device="cpu")
     np.testing.assert_array_equal(changed.image, alone.image)
     back = endoscopy(tube, LINE, 40.0, size=(31, 31), backwards=True, profile=profile, device="cpu")
-    assert (back.position[15, 14:17, 2] > -10).all()
+    assert np.nanmin(back.position[..., 2]) > -10
 
 
 def test_a_narrow_place_is_as_narrow_as_measured():
@@ -203,14 +203,15 @@ def test_the_command_writes_a_picture_like_another(files):
     words = ("endoscopy", files / "ct.nrrd", files / "lines.vtp")
     said = run(*words, "-o", files / "a.png", "--at", "20", "--roll", "30", "--size", "220x210", "--no-annotate")
     assert "endoscopy at 20.0 mm of 1 vessel" in said
-    assert Image.open(files / "a.png").size == (220, 210)
     run(*words, "-o", files / "b.png", "--like", files / "a.png", "--no-annotate")
-    same = [np.array(Image.open(files / name)) for name in ("a.png", "b.png")]
-    np.testing.assert_array_equal(*same)
+    with Image.open(files / "a.png") as first, Image.open(files / "b.png") as second:
+        assert first.size == (220, 210)
+        np.testing.assert_array_equal(np.array(first), np.array(second))
 
 
 def test_a_film_has_a_frame_for_each_place(files):
     words = ("fly", files / "ct.nrrd", files / "lines.vtp", "--size", "64x64", "--fps", "4")
     said = run(*words, "-o", files / "fly.webp", "--from", "40", "--to", "30")
-    assert "flight through vessel trunk, 5 frames" in said
-    assert Image.open(files / "fly.webp").n_frames == 5
+    assert "flight through vessel 0 trunk, 60 mm, 5 frames" in said
+    with Image.open(files / "fly.webp") as film:
+        assert film.n_frames == 5

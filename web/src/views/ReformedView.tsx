@@ -92,10 +92,10 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
                 {words}
               </b>
             ))}
-          {text && size && shown && kind !== 'endoscopy' && (
+          {text && size && shown && (
             <NamedScale
               size={size}
-              spacing={shown.pixel_spacing}
+              spacing={kind === 'endoscopy' ? null : shown.pixel_spacing}
               isNamed={kind !== 'untangled' && kind !== 'network'}
             />
           )}

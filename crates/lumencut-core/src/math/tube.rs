@@ -5,13 +5,14 @@ use glam::{DVec3, Vec3, Vec4};
 
 /// Number of radii in a row, at even steps of the [turn](turn_of).
 pub const AROUND: usize = 256;
-/// A ray advances by this share of the way on which a straight wall would end it.
-pub const NEWTON: f32 = 0.95;
+/// A ray advances by slightly more than the way on which a straight wall would end it.
+pub const NEWTON: f32 = 1.02;
 /// The shortest and longest step of a ray, as shares of the radius around it.
 pub const SHORTEST: f32 = 0.02;
 pub const LONGEST: f32 = 0.5;
-/// Number of steps by which the place of a wall is refined.
-pub const REFINED: usize = 5;
+/// The place of a wall is refined by at most this many steps, until it is this exact (mm).
+pub const REFINED: usize = 8;
+pub const EXACT: f32 = 1e-3;
 /// A ray ends after this many steps.
 pub const MAX_STEPS: usize = 1000;
 /// Least divisor.
@@ -89,6 +90,11 @@ impl Tube {
         ((at / f64::from(self.step)).round().max(0.0) as usize).min(self.rows.len() - 1)
     }
 
+    /// The direction along the vessel at an arc length (mm).
+    pub fn tangent(&self, at: f64) -> DVec3 {
+        xyz(self.rows[self.row_at(at)].tangent).as_dvec3()
+    }
+
     /// The place of a world point, found from a row near it.
     pub fn place_of(&self, point: DVec3, near: usize) -> TubePlace {
         self.find((point - self.origin).as_vec3(), near)
@@ -146,7 +152,7 @@ impl Tube {
     /// The first wall or opening that a ray from `eye` (mm from the origin) meets between two distances (mm).
     pub fn met(&self, eye: Vec3, ray: Vec3, [start, end]: [f32; 2], near: usize) -> Met {
         let mut away = start;
-        let mut before = away;
+        let mut before = [away, 0.0];
         let mut place = self.find(eye + ray * away, near);
         for _ in 0..MAX_STEPS {
             if self.is_beyond(&place) {
@@ -154,12 +160,12 @@ impl Tube {
             }
             let [inside, rise, radius] = self.inside(&place, ray);
             if inside <= 0.0 {
-                return self.crossed([eye, ray], [before, away], place.row);
+                return self.crossed([eye, ray], [before, [away, inside]], &place);
             }
             if away >= end {
                 return Met::Nothing;
             }
-            before = away;
+            before = [away, inside];
             let straight = NEWTON * inside / rise.max(1e-3);
             away = (away + straight.clamp(SHORTEST * radius, LONGEST * radius)).min(end);
             place = self.find(eye + ray * away, place.row);
@@ -179,23 +185,24 @@ impl Tube {
         [radius - away, rise, radius]
     }
 
-    /// What a ray meets where it leaves the wall between two distances.
-    fn crossed(&self, [eye, ray]: [Vec3; 2], [mut low, mut high]: [f32; 2], near: usize) -> Met {
-        let at = |away: f32| self.find(eye + ray * away, near);
-        let depth = |away: f32| self.inside(&at(away), ray)[0];
-        let (mut inside, mut outside) = (depth(low), depth(high));
+    /// What a ray meets where it leaves the wall between two distances, each with the depth within the wall (mm).
+    fn crossed(&self, [eye, ray]: [Vec3; 2], [low, high]: [[f32; 2]; 2], end: &TubePlace) -> Met {
+        let ([mut low, mut inside], [mut high, mut outside]) = (low, high);
+        let (mut away, mut place) = (high, *end);
         for _ in 0..REFINED {
-            let share = (inside / (inside - outside).max(LEAST)).clamp(0.05, 0.95);
-            let middle = low + (high - low) * share;
-            let found = depth(middle);
+            let share = inside / (inside - outside).max(LEAST);
+            away = low + (high - low) * share.clamp(0.02, 0.98);
+            place = self.find(eye + ray * away, place.row);
+            let found = self.inside(&place, ray)[0];
+            if found.abs() < EXACT {
+                break;
+            }
             if found > 0.0 {
-                (low, inside) = (middle, found);
+                (low, inside) = (away, found);
             } else {
-                (high, outside) = (middle, found);
+                (high, outside) = (away, found);
             }
         }
-        let away = low + (high - low) * (inside / (inside - outside).max(LEAST)).clamp(0.0, 1.0);
-        let place = at(away);
         if self.radius(&place).1 { Met::Opening(away, place.row) } else { Met::Wall(away) }
     }
 
@@ -207,13 +214,11 @@ impl Tube {
         let [x, y] = place.offset;
         let away = (x * x + y * y).sqrt().max(LEAST);
         let turn = reach / away.max(reach);
-        let [before, after] = [-turn, turn].map(|by| {
-            let (sine, cosine) = by.sin_cos();
-            self.radius(&TubePlace { offset: [x * cosine - y * sine, y * cosine + x * sine], ..*place }).0
-        });
+        let [before, after] =
+            [-turn, turn].map(|by| self.radius(&TubePlace { offset: [x - y * by, y + x * by], ..*place }).0);
         let rows = (reach / self.step).ceil() as usize;
         let ends = [place.row.saturating_sub(rows), (place.row + rows).min(self.rows.len() - 1)];
-        let [above, below] = ends.map(|row| self.radius(&TubePlace { row, along: 0.0, ..*place }).0);
+        let [above, below] = ends.map(|row| self.radius(&TubePlace { row, ..*place }).0);
         let along = (below - above) / ((ends[1] - ends[0]).max(1) as f32 * self.step);
         let around = (after - before) / (2.0 * turn * away);
         let outwards = (across * x + ahead * y) / away;

@@ -1,10 +1,11 @@
 // The inside of a vessel as tables that rays follow; tube.rs explains the numbers and the steps.
 
 const AROUND = 256u;
-const NEWTON: f32 = 0.95;
+const NEWTON: f32 = 1.02;
 const SHORTEST: f32 = 0.02;
 const LONGEST: f32 = 0.5;
-const REFINED = 5u;
+const REFINED = 8u;
+const EXACT: f32 = 1e-3;
 const MAX_STEPS = 1000u;
 // Least divisor.
 const LEAST: f32 = 1e-9;
@@ -109,31 +110,32 @@ fn inside_of(place: TubePlace, ray: vec3f) -> Inside {
     return Inside(radius - away, rise, radius, nearest < 0.0);
 }
 
-fn crossed(ray: vec3f, start: f32, end: f32, near: u32) -> Met {
-    var low = start;
-    var high = end;
-    var inside = inside_of(find(tube.eye.xyz + ray * low, near), ray).inside;
-    var outside = inside_of(find(tube.eye.xyz + ray * high, near), ray).inside;
+// The first of `before` and `after` is a distance, the second the depth within the wall there.
+fn crossed(ray: vec3f, before: vec2f, after: vec2f, end: TubePlace) -> Met {
+    var low = before;
+    var high = after;
+    var away = after.x;
+    var place = end;
     for (var n = 0u; n < REFINED; n++) {
-        let share = clamp(inside / max(inside - outside, LEAST), 0.05, 0.95);
-        let middle = low + (high - low) * share;
-        let found = inside_of(find(tube.eye.xyz + ray * middle, near), ray).inside;
+        let share = low.y / max(low.y - high.y, LEAST);
+        away = low.x + (high.x - low.x) * clamp(share, 0.02, 0.98);
+        place = find(tube.eye.xyz + ray * away, place.row);
+        let found = inside_of(place, ray).inside;
+        if abs(found) < EXACT {
+            break;
+        }
         if found > 0.0 {
-            low = middle;
-            inside = found;
+            low = vec2f(away, found);
         } else {
-            high = middle;
-            outside = found;
+            high = vec2f(away, found);
         }
     }
-    let away = low + (high - low) * clamp(inside / max(inside - outside, LEAST), 0.0, 1.0);
-    let place = find(tube.eye.xyz + ray * away, near);
     return Met(select(WALL, OPENING, inside_of(place, ray).open), away, place.row);
 }
 
 fn met(ray: vec3f, start: f32, end: f32) -> Met {
     var away = start;
-    var before = start;
+    var before = vec2f(start, 0.0);
     var place = find(tube.eye.xyz + ray * away, tube.near);
     for (var n = 0u; n < MAX_STEPS; n++) {
         if is_beyond(place) {
@@ -141,12 +143,12 @@ fn met(ray: vec3f, start: f32, end: f32) -> Met {
         }
         let here = inside_of(place, ray);
         if here.inside <= 0.0 {
-            return crossed(ray, before, away, place.row);
+            return crossed(ray, before, vec2f(away, here.inside), place);
         }
         if away >= end {
             break;
         }
-        before = away;
+        before = vec2f(away, here.inside);
         let straight = NEWTON * here.inside / max(here.rise, 1e-3);
         away = min(away + clamp(straight, SHORTEST * here.radius, LONGEST * here.radius), end);
         place = find(tube.eye.xyz + ray * away, place.row);

@@ -14,7 +14,7 @@ pub use tube::{Bounds, tube};
 use super::layout::{Layout, by_rows, curved_by_rows};
 use crate::error::Result;
 use crate::geometry::{Curved, Rays};
-use crate::math::tube::Tube;
+use crate::math::tube::{Tube, TubePlace};
 use crate::stages::Work;
 use crate::stages::wall::{Beyond, wall};
 use crate::stop::{Stop, go_on};
@@ -27,6 +27,8 @@ const END_MM: f32 = 150.0;
 const HIDDEN_MM: f64 = 1.0;
 /// Distances of neighbouring pixels that differ by a larger share belong to different walls.
 const SAME_WALL: f64 = 0.1;
+/// The slope of the wall is that over this distance to each side (mm).
+const SLOPE_MM: f32 = 2.0;
 /// The light of the eye falls to 1/e after this distance (mm).
 const LIGHT_MM: f64 = 50.0;
 
@@ -90,7 +92,7 @@ impl Endoscopy {
                 let normal = if away < 0.0 {
                     slope(beyond, point, f64::from(reach))
                 } else {
-                    self.tube.normal(&self.tube.place_of(point, self.near()), reach)
+                    self.tube.normal(&self.place(point), SLOPE_MM)
                 };
                 let light = (-f64::from(away.abs()) / LIGHT_MM).exp() as f32;
                 *pixel = if away.is_nan() { f32::NAN } else { normal.dot(ray).abs() * light };
@@ -98,8 +100,11 @@ impl Endoscopy {
         })
     }
 
-    fn near(&self) -> usize {
-        self.tube.row_at(self.eye.at)
+    /// The place in the tube of a pixel's wall point.
+    fn place(&self, point: DVec3) -> TubePlace {
+        // The search starts where the point would be along a straight vessel.
+        let along = (point - self.eye.position).dot(self.tube.tangent(self.eye.at));
+        self.tube.place_of(point, self.tube.row_at(self.eye.at + along))
     }
 
     /// The wall point of a pixel (mm, LPS); NaN without a wall.
@@ -117,7 +122,7 @@ impl Endoscopy {
             for (i, pixel) in pixels.iter_mut().enumerate() {
                 let n = row * width + i;
                 if self.wall[n] > 0.0 {
-                    let place = self.tube.place_of(self.point(n), self.near());
+                    let place = self.place(self.point(n));
                     *pixel = f64::from(self.tube.arc_length_and_distance(&place)[which]);
                 }
             }

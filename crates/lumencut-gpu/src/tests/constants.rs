@@ -89,7 +89,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/thickness": thickness::ROOT_HALF, consts::LOG2_E, consts::LN_2;
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
-        "math/tube": tube::AROUND, tube::NEWTON, tube::SHORTEST, tube::LONGEST, tube::REFINED, tube::MAX_STEPS, tube::LEAST;
+        "math/tube": tube::AROUND, tube::NEWTON, tube::SHORTEST, tube::LONGEST, tube::REFINED, tube::EXACT, tube::MAX_STEPS, tube::LEAST;
         "math/walls": walls::MAX_LEAN;
         "stages/body": body::COLOR, body::EVERYWHERE, body::GLOW, body::LINE, body::GLOW_MM, consts::LOG2_E, ray::NONE;
         "stages/composite": composite::RIM_FADES;

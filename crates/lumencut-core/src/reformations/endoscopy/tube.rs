@@ -1,5 +1,7 @@
 //! The wall and the course of a vessel as the tables that rays follow.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -9,6 +11,8 @@ use crate::reformations::cpr::Straightened;
 
 /// The largest distance of rows (mm).
 const ROW_MM: f64 = 0.5;
+/// So far around an opening (mm) the volume decides whether a ray leaves, since openings are known at single places only.
+const RIM_MM: f64 = 2.0;
 
 /// The values that bound a lumen.
 #[derive(Clone, Copy, Debug)]
@@ -43,10 +47,35 @@ pub fn tube(straightened: &Straightened, wall: &Wall, bounds: impl Fn(f64) -> Bo
             tangent: with(frame.tangent, calcium),
             across: with(frame.across, if is_bright { 1.0 } else { -1.0 }),
         };
-        (row, radius.collect::<Vec<f32>>())
+        (row, widened_around(&radius.collect::<Vec<f32>>()))
     };
     let (rows, radius): (Vec<_>, Vec<_>) = (0..=count).into_par_iter().map(row).unzip();
-    Tube::new(origin, step, rows, radius.concat())
+    Tube::new(origin, step, rows, widened_along(&radius, (RIM_MM / step).round() as usize))
+}
+
+/// The radii of a row, with openings that reach [`RIM_MM`] farther around.
+fn widened_around(radii: &[f32]) -> Vec<f32> {
+    let count = radii.len();
+    let reach = |radius: f32| (RIM_MM / f64::from(radius.abs()) / TAU * AROUND as f64).ceil() as usize;
+    let is_near =
+        |n: usize, by: usize| radii[(n + by) % count] < 0.0 || radii[(n + count - by) % count] < 0.0;
+    let radius = |n: usize| {
+        let is_open = (0..=reach(radii[n]).min(count / 2)).any(|by| is_near(n, by));
+        if is_open { -radii[n].abs() } else { radii[n] }
+    };
+    (0..count).map(radius).collect()
+}
+
+/// The radii of all rows, with openings that reach some rows farther along.
+fn widened_along(rows: &[Vec<f32>], reach: usize) -> Vec<f32> {
+    let row = |n: usize| {
+        let near = &rows[n.saturating_sub(reach)..(n + reach + 1).min(rows.len())];
+        let radius = move |k: usize| {
+            if near.iter().any(|radii| radii[k] < 0.0) { -rows[n][k].abs() } else { rows[n][k] }
+        };
+        (0..AROUND).map(radius)
+    };
+    (0..rows.len()).flat_map(row).collect()
 }
 
 /// The angle (radians) of an entry of a row.
@@ -55,7 +84,7 @@ fn direction(entry: usize) -> f64 {
     let quarter = turn.floor();
     let share = turn - quarter;
     // A quarter of the diamond |x| + |y| = 1.
-    share.atan2(1.0 - share) + quarter * std::f64::consts::FRAC_PI_2
+    share.atan2(1.0 - share) + quarter * FRAC_PI_2
 }
 
 #[cfg(test)]
