@@ -65,9 +65,7 @@ def angles(made):
 
 @pytest.mark.parametrize(("lens", "degrees"), [("perspective", 100), ("fisheye", 180)])
 def test_a_tube_is_its_radius_by_the_sine_away(tube, profile, lens, degrees):
-    made = endoscopy(
-        tube, LINE, 20.0, lens, math.radians(degrees), (97, 65), profile=profile, device="cpu"
-    )
+    made = endoscopy(tube, LINE, 20.0, lens, math.radians(degrees), (97, 65), profile=profile, device="cpu")
     seen = ~made.open & np.isfinite(made.depth)
     assert seen.mean() > 0.3
     measured = np.nanmedian(profile.diameter_equivalent) / 2
@@ -201,7 +199,8 @@ def run(*words):
 
 def test_the_command_writes_a_picture_like_another(files):
     words = ("endoscopy", files / "ct.nrrd", files / "lines.vtp")
-    said = run(*words, "-o", files / "a.png", "--at", "20", "--roll", "30", "--size", "220x210", "--no-annotate")
+    view = ("--at", "20", "--roll", "30", "--size", "220x210")
+    said = run(*words, "-o", files / "a.png", *view, "--no-annotate")
     assert "endoscopy at 20.0 mm of 1 vessel" in said
     run(*words, "-o", files / "b.png", "--like", files / "a.png", "--no-annotate")
     with Image.open(files / "a.png") as first, Image.open(files / "b.png") as second:

@@ -1,7 +1,7 @@
 """Endoscopy: the stent graft from inside.
 
-The wall of the aorta and the stent graft, seen by an eye in the lumen. Left: above the graft, with the opening of
-the mesenteric artery. Right: in the graft, towards its two limbs. Metal and calcium are white.
+The wall of the aorta and the stent graft, seen by an eye in the lumen. Left: above the graft, with the
+opening of the mesenteric artery. Right: in the graft. Metal and calcium are white.
 """
 
 import numpy as np
@@ -11,7 +11,5 @@ import lumencut
 from lumencut import demo
 
 volume, tree = demo.stent_scene()
-above = lumencut.endoscopy(volume, tree.path([0, 1, 2]), 10.0, size=(384, 384), tree=tree)
-views = [above, above.changed(90.0)]
-pictures = [view.annotated()[..., :3] for view in views]
-Image.fromarray(np.hstack(pictures)).save("stent_inside.webp")
+above = lumencut.endoscopy(volume, tree.path([0, 1, 2]), 20.0, size=(384, 384), tree=tree)
+Image.fromarray(np.hstack([above.image, above.changed(60.0).image])).save("stent_inside.webp")

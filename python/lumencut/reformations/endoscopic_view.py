@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import warnings
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -11,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.errors import LineWarning
+from lumencut.base.checks import number
+from lumencut.errors import CameraError, LineWarning
 from lumencut.measuring.profile import Profile
 from lumencut.pictures.reformation_recipe import ReformationRecipe
 from lumencut.pictures.renderer import Renderer
@@ -86,8 +88,6 @@ class Endoscopy(Reformation):
         CameraError
             As for :func:`lumencut.endoscopy`.
         """
-        from lumencut.reformations.endoscoping import finite
-
         own = {name: finite(name, value) for name, value in (("at", at), ("roll", roll)) if value is not None}
         return Endoscopy(self._seen, self._given, {**self._wanted, **own})
 
@@ -163,3 +163,11 @@ class Endoscopy(Reformation):
         """Return the place and the size."""
         width, height = self.size
         return f"Endoscopy({self.lens}, at {self.at:.4g} mm, {width} × {height} pixels)"
+
+
+def finite(name: str, value: Any) -> float:
+    """Return a number of the endoscopy that is finite."""
+    found = number(CameraError, f"{name} of the endoscopy", value)
+    if not math.isfinite(found):
+        raise CameraError(f"{name} of the endoscopy", f"{found:g}", "a finite number")
+    return found

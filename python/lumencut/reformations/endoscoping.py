@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy.typing as npt
 
-from lumencut.base.checks import flag, number, numbers
+from lumencut.base.checks import flag, numbers
 from lumencut.errors import CameraError
 from lumencut.measuring.profile import Profile
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.checks import check_vessel, flat_settings
-from lumencut.reformations.endoscopic_view import Endoscopy, Lens, SeenVessel
+from lumencut.reformations.endoscopic_view import Endoscopy, Lens, SeenVessel, finite
 from lumencut.reformations.lumen_mapping import found_wall
 from lumencut.reformations.request import HEAD, ReformationRequest
 from lumencut.scene.vessel import Vessel
@@ -130,14 +129,6 @@ class EndoscopyRequest(ReformationRequest):
         wall, known = found_wall(grid, vessel, self, asked)
         seen = SeenVessel(renderer, wall.inside(), known, self.tree)
         return Endoscopy(seen, flat_settings(None), asked)
-
-
-def finite(name: str, value: Any) -> float:
-    """Return a number of the endoscopy that is finite."""
-    found = number(CameraError, f"{name} of the endoscopy", value)
-    if not math.isfinite(found):
-        raise CameraError(f"{name} of the endoscopy", f"{found:g}", "a finite number")
-    return found
 
 
 def flight(first: Endoscopy, to: float, speed: float, fps: float) -> list[float]:
