@@ -165,6 +165,8 @@ def test_a_place_beyond_the_vessel_is_rejected(tube, profile, at):
         ({"field_of_view": 3.0}, CameraError, "field_of_view"),
         ({"field_of_view": 0.0}, CameraError, "field_of_view"),
         ({"size": (0, 5)}, CameraError, "size"),
+        ({"size": (-1, math.inf)}, CameraError, "size"),
+        ({"lens": 3}, SettingsError, "lens"),
         ({"size": (5.5, 5)}, CameraError, "size"),
         ({"size": (10**6, 10**6)}, CameraError, "size"),
         ({"roll": math.nan}, CameraError, "roll"),

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::centerline_path::CenterlinePath;
@@ -159,7 +158,7 @@ impl Inside {
             });
             [r, g, b, 255]
         };
-        shades.par_iter().zip(values).map(pixel).collect()
+        shades.iter().zip(values).map(pixel).collect()
     }
 
     /// The openings of other vessels into this one.

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 import numpy.typing as npt
 
-from lumencut.base.checks import flag, numbers
-from lumencut.errors import CameraError
+from lumencut.base.checks import choice, flag, integers
+from lumencut.errors import CameraError, SettingsError
 from lumencut.measuring.profile import Profile
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.checks import check_vessel, flat_settings
@@ -120,11 +120,11 @@ class EndoscopyRequest(ReformationRequest):
     def of(self, renderer: Renderer, vessel: Vessel) -> Endoscopy:
         """Return what an eye in a vessel sees, in the scene of a renderer."""
         grid = self._volume(renderer, vessel)
+        choice(SettingsError, "lens of the endoscopy", self.lens, ("perspective", "fisheye"))
         flag(CameraError, "backwards", self.backwards)
         finite("at", self.at)
-        width_height = numbers(CameraError, "size of the endoscopy", self.size, (2,))
-        if not (width_height == width_height.round()).all():
-            raise CameraError("size of the endoscopy", f"{self.size}", "two whole numbers of pixels")
+        finite("roll", self.roll)
+        integers(CameraError, "size of the endoscopy", self.size, 1, 32768, 2)
         asked = self.checked()
         wall, known = found_wall(grid, vessel, self, asked)
         seen = SeenVessel(renderer, wall.inside(), known, self.tree)

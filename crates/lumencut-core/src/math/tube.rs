@@ -106,6 +106,8 @@ impl Tube {
         [place.row as f32 * self.step + place.along, (x * x + y * y).sqrt()]
     }
 
+    // Inlining it at each call would double the size in browsers.
+    #[inline(never)]
     fn find(&self, point: Vec3, near: usize) -> TubePlace {
         let half = 0.5 * self.step;
         let mut row = near;
@@ -186,6 +188,7 @@ impl Tube {
     }
 
     /// What a ray meets where it leaves the wall between two distances, each with the depth within the wall (mm).
+    #[inline(never)]
     fn crossed(&self, [eye, ray]: [Vec3; 2], [low, high]: [[f32; 2]; 2], end: &TubePlace) -> Met {
         let ([mut low, mut inside], [mut high, mut outside]) = (low, high);
         let (mut away, mut place) = (high, *end);

@@ -6,7 +6,6 @@ mod tube;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec3};
-use rayon::prelude::*;
 
 pub use lens::{Eye, Lens, LensImage};
 pub use tube::{Bounds, tube};
@@ -164,7 +163,7 @@ fn rays(eye: &Eye, image: &LensImage, stop: Stop) -> Result<Rays> {
     let start = (START * eye.radius) as f32;
     // A ray without a direction ends where it starts.
     let span = |ray: &Vec3| [start, if *ray == Vec3::ZERO { start } else { END_MM }];
-    let spans = direction.par_iter().map(span).collect();
+    let spans = direction.iter().map(span).collect();
     Rays::new(size, eye.position, direction, spans)
 }
 

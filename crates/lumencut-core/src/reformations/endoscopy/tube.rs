@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::math::tube::{AROUND, Tube, TubeRow};
 use crate::reformations::Wall;
@@ -26,7 +25,7 @@ pub struct Bounds {
 }
 
 /// The tables of a vessel, with the bounds of its lumen by arc length (mm).
-pub fn tube(straightened: &Straightened, wall: &Wall, bounds: impl Fn(f64) -> Bounds + Sync) -> Tube {
+pub fn tube(straightened: &Straightened, wall: &Wall, bounds: impl Fn(f64) -> Bounds) -> Tube {
     let length = straightened.length();
     let count = (length / ROW_MM).ceil().max(1.0) as usize;
     let step = length / count as f64;
@@ -49,7 +48,7 @@ pub fn tube(straightened: &Straightened, wall: &Wall, bounds: impl Fn(f64) -> Bo
         };
         (row, widened_around(&radius.collect::<Vec<f32>>()))
     };
-    let (rows, radius): (Vec<_>, Vec<_>) = (0..=count).into_par_iter().map(row).unzip();
+    let (rows, radius): (Vec<_>, Vec<_>) = (0..=count).map(row).unzip();
     Tube::new(origin, step, rows, widened_along(&radius, (RIM_MM / step).round() as usize))
 }
 
