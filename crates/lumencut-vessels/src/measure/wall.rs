@@ -21,6 +21,9 @@ const AROUND: [f64; 2] = [-1100.0, 400.0];
 /// Darker surroundings (HU) are lung; fat is above -150.
 pub(crate) const LUNG: f64 = -300.0;
 
+/// Values of air in the lumens of airways (HU).
+const AIR: [f64; 2] = [-1100.0, -700.0];
+
 /// A wall is darker than its lumen by at least this fraction of the contrast.
 const BELOW_LUMEN: f64 = 0.1;
 
@@ -102,25 +105,37 @@ pub(crate) fn expected(
 ) -> Result<(Option<KnownWall>, WallSource)> {
     match request {
         WallRequest::Off => Ok((None, WallSource::NotAsked)),
-        _ if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
         WallRequest::Level(level) => {
             let wall = in_its_place(voxels, scale, KnownWall::of(level, scale));
             if wall.level[0] <= 1.0 - BELOW_LUMEN {
                 return Ok((Some(wall), WallSource::Given(level)));
             }
             let found = format!("{} in a lumen of {:.0}", level[0], scale.value(1.0));
-            let expected = "a level below that of the lumen";
+            let expected = if scale.contrast < 0.0 {
+                "a level above that of the dark lumen"
+            } else {
+                "a level below that of the lumen"
+            };
             Err(Error::new(ErrorKind::Settings, "wall", found, expected))
         }
         WallRequest::Automatic if is_hounsfield(voxels, scale) => {
             Ok((Some(in_its_place(voxels, scale, KnownWall::of(CT_WALL, scale))), WallSource::Hounsfield))
         }
+        WallRequest::Automatic if is_airway(voxels, scale) => {
+            Ok((Some(KnownWall::of(CT_WALL, scale)), WallSource::Hounsfield))
+        }
+        WallRequest::Automatic if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
         WallRequest::Automatic => Ok((None, WallSource::OtherUnit)),
     }
 }
 
 fn in_its_place(voxels: &Voxels, scale: &Scale, wall: KnownWall) -> KnownWall {
     KnownWall { is_in_lung: scale.outside < LUNG && is_hounsfield(voxels, scale), ..wall }
+}
+
+/// Whether a lumen is that of an airway in CT: air that is darker than its surroundings.
+pub(crate) fn is_airway(voxels: &Voxels, scale: &Scale) -> bool {
+    scale.contrast < 0.0 && (AIR[0]..=AIR[1]).contains(&scale.value(1.0)) && voxels.has_negative()
 }
 
 /// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.
