@@ -24,6 +24,8 @@ pub enum Kind {
 pub struct Words {
     /// One lumen.
     pub one: &'static str,
+    /// The name of a lumen, before its number.
+    pub name: &'static str,
     /// Several lumens.
     pub several: &'static str,
     /// The scan that tracing expects.
@@ -39,6 +41,7 @@ const ANGIOGRAPHY: &str = "an angiography, whose vessels are brighter than the t
 
 const CT_VESSELS: Words = Words {
     one: "vessel",
+    name: "Vessel",
     several: "vessels",
     scan: ANGIOGRAPHY,
     scarce: [
@@ -64,6 +67,7 @@ const VESSELS: Words = Words {
 
 const DARK_LUMENS: Words = Words {
     one: "dark lumen",
+    name: "Lumen",
     several: "dark lumens",
     scan: "a scan whose lumens are darker than the tissue around them",
     scarce: [
@@ -77,6 +81,7 @@ const DARK_LUMENS: Words = Words {
 
 const AIRWAYS: Words = Words {
     one: "airway",
+    name: "Airway",
     several: "airways",
     scan: "a CT whose airways are darker than the tissue around them",
     scarce: ["hardly any airway of the scan is long and round: it may show none", "no airways?"],
@@ -97,6 +102,14 @@ impl Kind {
             Polarity::Bright => Self::Vessels,
             Polarity::Dark if value < AIR => Self::Airways,
             Polarity::Dark => Self::DarkLumens,
+        }
+    }
+
+    /// The kind that a scan is expected to show.
+    pub fn of_scan(polarity: Polarity, is_ct: bool) -> Self {
+        match polarity {
+            Polarity::Dark if is_ct => Self::Airways,
+            _ => Self::of(polarity, is_ct, 0.0),
         }
     }
 

@@ -107,6 +107,7 @@ pub(crate) fn expected(
         WallRequest::Off => Ok((None, WallSource::NotAsked)),
         WallRequest::Level(level) => {
             let wall = in_its_place(voxels, scale, KnownWall::of(level, scale));
+            let wall = KnownWall { is_airway: is_airway(voxels, scale), ..wall };
             if wall.level[0] <= 1.0 - BELOW_LUMEN {
                 return Ok((Some(wall), WallSource::Given(level)));
             }
@@ -122,7 +123,8 @@ pub(crate) fn expected(
             Ok((Some(in_its_place(voxels, scale, KnownWall::of(CT_WALL, scale))), WallSource::Hounsfield))
         }
         WallRequest::Automatic if is_airway(voxels, scale) => {
-            Ok((Some(KnownWall::of(CT_WALL, scale)), WallSource::Hounsfield))
+            let wall = KnownWall { is_airway: true, ..KnownWall::of(CT_WALL, scale) };
+            Ok((Some(wall), WallSource::Hounsfield))
         }
         WallRequest::Automatic if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
         WallRequest::Automatic => Ok((None, WallSource::OtherUnit)),

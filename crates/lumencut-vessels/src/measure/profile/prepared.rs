@@ -262,7 +262,7 @@ impl PreparedVessel {
         if is_hounsfield(voxels, &self.scale) && !is_in_lung {
             flag_struts(bench, &self.places, &mut sections);
         }
-        if let Some(wall) = bench.wall.as_ref().filter(|_| self.scale.contrast > 0.0) {
+        if let Some(wall) = bench.wall.as_ref().filter(|wall| !wall.is_airway) {
             flag_dim_plaque(&self.places, &mut sections, &read.lumen, wall.level[0]);
         }
         let variance: Vec<f64> =
@@ -270,7 +270,9 @@ impl PreparedVessel {
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
         settle(&self.places, &mut sections, bench.fwhm);
-        flag_contradicted(bench, &self.places, &mut sections);
+        if !self.wall.is_some_and(|wall| wall.is_airway) {
+            flag_contradicted(bench, &self.places, &mut sections);
+        }
         Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
         flag_stents(bench, &self.places, &mut sections);
         let wall_source = match by_others {

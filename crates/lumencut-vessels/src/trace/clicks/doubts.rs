@@ -56,8 +56,11 @@ impl Doubted<'_> {
             let at = lengths[change.at];
             let [before, after] = change.levels.map(|level| voxels.polarity.turned(level));
             let why = format!("the brightness of the lumen changes there from {before:.0} to {after:.0}");
-            let words =
-                format!("Doubtful from {at:.0} mm on: {why}: another lumen, or fading contrast medium.");
+            let cause = match voxels.polarity {
+                Polarity::Bright => "another lumen, or fading contrast medium",
+                Polarity::Dark => "another lumen, or a leak",
+            };
+            let words = format!("Doubtful from {at:.0} mm on: {why}: {cause}.");
             Doubt { words, at: Some(at) }
         });
         let crossed = self.crossed(voxels, &lengths);
