@@ -1,0 +1,39 @@
+/** Dark lumens are traced by a switch of the tracing tools; context, window and words follow, and a session keeps it. */
+import { expect, test } from '@playwright/test';
+import { button, choose, fileOf, SESSION, saved } from './controls';
+import { Viewer } from './page';
+import { openScan, tubes } from './scans';
+
+const SIZE = { width: 1200, height: 760 };
+
+/** Lumen of 350 HU becomes air, fat becomes soft tissue. */
+const SCAN = tubes('airways.nrrd', 0, () => null, (value) => 40 - ((value + 100) * 1040) / 450);
+
+const dark = (viewer: Viewer) => viewer.page.getByLabel('Dark lumens (airways)').first();
+
+test('a switch traces airways, in their words, and a session keeps it', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
+  await openScan(viewer, SCAN);
+  await expect(button(viewer, 'Find all vessels').first()).toBeVisible();
+  await dark(viewer).check();
+  await button(viewer, 'Find all airways').first().click();
+  await expect(viewer.page.getByText('Airway 2').first()).toBeVisible();
+  await viewer.screenshot('dark-found');
+  await expect(viewer.page.getByText('Vessel 1')).toHaveCount(0);
+  const session = await saved(viewer, SESSION);
+  const content = JSON.parse(session.toString('utf-8')).LumencutSession;
+  expect([content.format, content.dark, content.view.settings.context]).toEqual([2, true, 'minip']);
+  await button(viewer, 'Trace').first().click();
+  await expect(dark(viewer)).toBeChecked();
+  await viewer.screenshot('dark-tracing');
+  await dark(viewer).uncheck();
+  await expect(viewer.page.getByText('Airway 2').first()).toBeVisible();
+  await viewer.page.reload();
+  await openScan(viewer, SCAN);
+  await choose(viewer, fileOf('saved.mrk.json', session));
+  await expect(viewer.page.getByText('Airway 2').first()).toBeVisible();
+  await button(viewer, 'Trace').first().click();
+  await expect(dark(viewer)).toBeChecked();
+  viewer.expectNoFault();
+  await viewer.close();
+});
