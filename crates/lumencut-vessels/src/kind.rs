@@ -1,9 +1,11 @@
 //! What is traced, and the words for it.
 
+use std::ops::Range;
+
 use lumencut_core::polarity::Polarity;
 
-/// Darker lumens (HU) hold air.
-const AIR: f64 = -400.0;
+/// Values of air in lumens (HU).
+pub(crate) const AIR: Range<f64> = -1100.0..-700.0;
 
 /// The kind of lumens in a scan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -100,7 +102,7 @@ impl Kind {
         match polarity {
             Polarity::Bright if is_ct => Self::CtVessels,
             Polarity::Bright => Self::Vessels,
-            Polarity::Dark if value < AIR => Self::Airways,
+            Polarity::Dark if AIR.contains(&value) => Self::Airways,
             Polarity::Dark => Self::DarkLumens,
         }
     }

@@ -111,7 +111,7 @@ def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
         return tree
     length = sum(vessel.length for vessel in tree.doubtful)
     kept = "kept" if chosen["doubtful"] else "left out; --doubtful keeps them"
-    doubtful = f"{len(tree.doubtful)} vessels of {length:.0f} mm"
+    doubtful = f"{len(tree.doubtful)} {_several(chosen)} of {length:.0f} mm"
     say(f"doubtful: {doubtful}, in addition to {len(tree)} certain ones; {kept}")
     return VesselTree([*tree, *tree.doubtful]) if chosen["doubtful"] else tree
 
@@ -122,7 +122,7 @@ def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     from lumencut.tracing.vessel_finding import find_vessels
 
     smallest, polarity = chosen["smallest_radius"], polarity_of(chosen)
-    with bar("searching", "share") as progress:
+    with bar(f"finding {_several(chosen)}", "share") as progress:
         if chosen["find"]:
             tree = find_vessels(voxels, smallest_radius=smallest, polarity=polarity, progress=progress)
         else:
@@ -137,8 +137,12 @@ def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
         say(note)
     for number, part in enumerate(tree.parts):
         length = sum(tree[vessel].length for vessel in part)
-        detail(f"part {number}: {len(part)} vessels of {length:.0f} mm")
+        detail(f"part {number}: {len(part)} {_several(chosen)} of {length:.0f} mm")
     return tree
+
+
+def _several(chosen: dict[str, Any]) -> str:
+    return "dark lumens" if chosen["dark"] else "vessels"
 
 
 def _place(chosen: dict[str, Any], voxels: Volume) -> npt.NDArray[np.float64]:

@@ -126,7 +126,8 @@ def trace(
     for vessel in tree:
         detail(f"{vessel!r}{_mean('radius', vessel.radius, ' mm')}{_mean('confidence', vessel.confidence)}")
     say(f"{output}: {tree!r}, {sum(vessel.length for vessel in tree):.1f} mm")
-    _say_suggested(tree, voxels)
+    if not chosen["dark"]:
+        _say_suggested(tree, voxels)
     if preview is not None and voxels is not None:
         _render((voxels, tree), preview, device, is_dark=chosen["dark"])
 

@@ -4,6 +4,7 @@ pub(crate) mod pool;
 pub mod tree;
 
 use self::tree::PooledWall;
+use crate::kind::AIR;
 use crate::measure::estimation::Level;
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::scale::Scale;
@@ -20,9 +21,6 @@ const AROUND: [f64; 2] = [-1100.0, 400.0];
 
 /// Darker surroundings (HU) are lung; fat is above -150.
 pub(crate) const LUNG: f64 = -300.0;
-
-/// Values of air in the lumens of airways (HU).
-const AIR: [f64; 2] = [-1100.0, -700.0];
 
 /// A wall is darker than its lumen by at least this fraction of the contrast.
 const BELOW_LUMEN: f64 = 0.1;
@@ -137,7 +135,7 @@ fn in_its_place(voxels: &Voxels, scale: &Scale, wall: KnownWall) -> KnownWall {
 
 /// Whether a lumen is that of an airway in CT: air that is darker than its surroundings.
 pub(crate) fn is_airway(voxels: &Voxels, scale: &Scale) -> bool {
-    scale.contrast < 0.0 && (AIR[0]..=AIR[1]).contains(&scale.value(1.0)) && voxels.has_negative()
+    scale.contrast < 0.0 && AIR.contains(&scale.value(1.0)) && voxels.has_negative()
 }
 
 /// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.

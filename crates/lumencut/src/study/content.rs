@@ -173,8 +173,16 @@ impl Content {
         let Some(named) = &self.named else { return HashMap::new() };
         let (lines, vessels) = named.measured_among();
         let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
-        let suggested = suggested_names(&tubes, self.volume().as_ref());
+        let suggested = self.names_for(&tubes);
         lines.iter().copied().zip(suggested).collect()
+    }
+
+    /// The suggested names of tubes; none while dark lumens are traced, because the names are those of vessels.
+    pub(crate) fn names_for(&self, tubes: &[(&[DVec3], Option<&[f64]>)]) -> Vec<SuggestedName> {
+        if self.polarity == Polarity::Dark {
+            return tubes.iter().map(|_| SuggestedName::default()).collect();
+        }
+        suggested_names(tubes, self.volume().as_ref())
     }
 
     /// The open volume as it is traced.

@@ -1,9 +1,9 @@
 //! The values of lumen and of the tissue around it. Membership in lumen is gradual between bounds.
 
-use std::ops::Range;
-
 use glam::DVec3;
 use lumencut_core::polarity::Polarity;
+
+use crate::kind::AIR;
 
 /// Values of a lumen and of its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +22,7 @@ pub struct LumenModel {
     pub polarity: Polarity,
 }
 
-/// Values of air in lumens (HU), and of lung.
-const AIR: Range<f64> = -1100.0..-700.0;
+/// Level of lung (HU).
 const LUNG: f64 = -780.0;
 
 /// Whether a lumen with this value, as it is traced, holds air in CT.
