@@ -61,9 +61,9 @@ def test_a_mask_is_refined_in_dark_values(negated):
 
 def test_a_dark_scan_is_refused_in_words_of_dark_lumens(negated):
     _, bright, _ = negated
-    with pytest.raises(TracingError, match="no dark lumen found.*darker than the tissue around them"):
+    with pytest.raises(TracingError, match=r"no dark lumen found.*darker than the tissue around them"):
         lumencut.find_vessels(bright, polarity="dark")
-    with pytest.raises(SettingsError, match="'light'.*'bright', 'dark'"):
+    with pytest.raises(SettingsError, match=r"'light'.*'bright', 'dark'"):
         lumencut.find_vessels(bright, polarity="light")
 
 
@@ -81,7 +81,7 @@ def test_measuring_finds_the_wall_and_refuses_another_polarity(airways):
     profile = lumencut.measure(airways.volume, trachea, step=2, polarity="dark")
     assert np.nanmedian(profile.wall) == pytest.approx(1.5, abs=0.08)
     assert np.nanmedian(profile.diameter_equivalent) == pytest.approx(12, abs=0.05)
-    with pytest.raises(MeasuringError, match="darker than its surroundings.*bright"):
+    with pytest.raises(MeasuringError, match=r"darker than its surroundings.*bright"):
         lumencut.measure(airways.volume, trachea, step=2, polarity="bright")
     with pytest.raises(SettingsError, match="polarity"):
         lumencut.measure(airways.volume, trachea, polarity="grey")

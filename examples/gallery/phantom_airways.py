@@ -1,6 +1,6 @@
 """Airways, found and cut open.
 
-A phantom of airways in lung: lumens darker than their walls, cut open amid the smallest values along each ray.
+A phantom of airways in lung, cut open amid the smallest values along each ray.
 """
 
 import lumencut
@@ -11,5 +11,5 @@ tree = lumencut.find_vessels(airways.volume, polarity="dark")
 print(tree.notes[0])
 
 settings = lumencut.Settings(focus=lumencut.Focus(), context="minip", window="lung")
-renderer = lumencut.Renderer(airways.volume, tree)
-renderer.render(lumencut.Camera.anterior(tree, size=(900, 700)), settings=settings).save("phantom_airways.webp")
+camera = lumencut.Camera.anterior(tree, size=(900, 700))
+lumencut.render(airways.volume, tree, camera, settings).save("phantom_airways.webp")

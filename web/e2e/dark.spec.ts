@@ -7,7 +7,12 @@ import { openScan, tubes } from './scans';
 const SIZE = { width: 1200, height: 760 };
 
 /** Lumen of 350 HU becomes air, fat becomes soft tissue. */
-const SCAN = tubes('airways.nrrd', 0, () => null, (value) => 40 - ((value + 100) * 1040) / 450);
+const SCAN = tubes(
+  'airways.nrrd',
+  0,
+  () => null,
+  (value) => 40 - ((value + 100) * 1040) / 450,
+);
 
 const dark = (viewer: Viewer) => viewer.page.getByLabel('Dark lumens (airways)').first();
 

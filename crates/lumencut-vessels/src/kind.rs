@@ -21,7 +21,7 @@ pub enum Kind {
     DarkLumens,
 }
 
-/// The words for a kind. Of two texts, the second is short, for lists and counts.
+/// The words for a kind; of two texts, the second is short, for lists and counts.
 #[derive(Debug)]
 pub struct Words {
     /// One lumen.

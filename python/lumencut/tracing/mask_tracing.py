@@ -56,7 +56,8 @@ def trace_mask(
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
         Integers; 0 is background.
     volume : Volume or such an image, optional
-        The scan of the mask, such as an angiography. The voxels of the mask must be voxels of it, to a tenth of a voxel: all or a part, in any order and direction of the axes.
+        The scan of the mask, such as an angiography. The voxels of the mask must be voxels of it, to a tenth
+        of a voxel: all or a part, in any order and direction of the axes.
     labels : mapping of int to str, or iterable of int, optional
         Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
         every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values, or as

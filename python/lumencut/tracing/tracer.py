@@ -121,9 +121,7 @@ class Tracer:
         For anything that is not a volume.
     """
 
-    def __init__(
-        self, volume: Volume | Any, *, bridge: bool = False, polarity: Polarity = "bright"
-    ) -> None:
+    def __init__(self, volume: Volume | Any, *, bridge: bool = False, polarity: Polarity = "bright") -> None:
         self._volume = traced_volume(as_volume(volume), polarity)
         self._bridge = flag(TracingError, "bridge", bridge)
         self._kept = _lumencut.Tracer()

@@ -29,8 +29,8 @@ def find_vessels(
 ) -> VesselTree:
     """Find all vessels of an angiography, with no point given.
 
-    Tubes brighter (or darker) than their surroundings are found at all widths and followed along their middle,
-    each with its own levels. Those that are bone, organ or noise are left out or marked as doubtful,
+    Tubes brighter (or darker) than their surroundings are found at all widths and followed along their
+    middle, each with its own levels. Those that are bone, organ or noise are left out or marked as doubtful,
     the others are joined where they meet, and connected vessels form a part. The steps are in
     docs/method/tracing.md.
 

@@ -85,11 +85,7 @@ function Closing() {
 function AddButtons() {
   return (
     <div class="buttons">
-      <button
-        type="button"
-        title={findAllTitle()}
-        onClick={() => void findVessels()}
-      >
+      <button type="button" title={findAllTitle()} onClick={() => void findVessels()}>
         Find all {kind.value.several}
       </button>
       <button
