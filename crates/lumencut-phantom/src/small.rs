@@ -69,6 +69,7 @@ pub fn collinear_run() -> Result<Phantom> {
         bend.points.extend(&next.points[1..]);
         bend.lumen.extend(&next.lumen[1..]);
         bend.reference.extend(&next.reference[1..]);
+        bend.wall.extend(&next.wall[1..]);
     }
     let end_on = line("end-on", DVec3::new(15.0, -20.0, 0.0), DVec3::new(15.0, 20.0, 0.0), 40, 3.0);
     phantom("collinear_run", vec![bend, end_on])
