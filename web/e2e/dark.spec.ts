@@ -35,9 +35,9 @@ test('a switch traces airways, in their words, and a session keeps it', async ({
   await viewer.page.reload();
   await openScan(viewer, SCAN);
   await choose(viewer, fileOf('saved.mrk.json', session));
-  await expect(nameOf(viewer, 1)).toHaveValue('Airway 2');
   await button(viewer, 'Trace').first().click();
   await expect(dark(viewer)).toBeChecked();
+  await expect(nameOf(viewer, 1)).toHaveValue('Airway 2');
   viewer.expectNoFault();
   await viewer.close();
 });
