@@ -88,9 +88,9 @@ const AIRWAYS: Words = Words {
     scan: "a CT whose airways are darker than the tissue around them",
     scarce: ["hardly any airway of the scan is long and round: it may show none", "no airways?"],
     sides: ["it is dark on most sides: lung?", "in lung"],
-    flat: ["it is flat, like a layer of air", "flat"],
-    uneven: ["it is uneven inside, like lung or bowel", "uneven inside"],
-    pale: ["it is wide and brighter than the airways, like lung", "wide and bright"],
+    flat: ["it is flat, like a layer of air", "flat, like air"],
+    uneven: ["it is uneven inside, like lung or bowel", "like lung"],
+    pale: ["it is wide and brighter than the airways, like lung", "wide, like lung"],
 };
 
 impl Kind {

@@ -88,9 +88,8 @@ fn all_wide_airways_are_found_and_no_line_leaves_them_where_walls_are_thin() {
         .iter()
         .flat_map(|airway| airway.points().iter().copied().zip(airway.radius().unwrap().to_vec()))
         .collect();
-    let is_outside = |place: &DVec3| {
-        lumens.iter().all(|(point, radius)| point.distance(*place) > radius.hypot(0.5) + 0.1)
-    };
+    let is_outside =
+        |place: &DVec3| lumens.iter().all(|(point, radius)| point.distance(*place) > radius.hypot(0.5) + 0.1);
     let outside = points.iter().filter(|place| is_outside(place)).count();
     assert!(outside as f64 <= 0.02 * points.len() as f64, "{outside} of {}", points.len());
 }
@@ -117,8 +116,13 @@ fn walls_of_airways_are_measured_with_their_thickness() {
         let airway = called(&phantom, name);
         let radius = airway.radius().unwrap()[0];
         let whole = (0.8 + 0.15 * radius).min(1.5);
-        let request =
-            MeasureRequest { step: 1.0, fwhm: None, wall: WallRequest::Automatic, tree: &[], stop: &|| false };
+        let request = MeasureRequest {
+            step: 1.0,
+            fwhm: None,
+            wall: WallRequest::Automatic,
+            tree: &[],
+            stop: &|| false,
+        };
         let profile = measure(&volume, airway, &request).unwrap();
         assert_eq!(profile.polarity(), Polarity::Dark);
         assert_eq!(profile.wall_source, WallSource::Hounsfield);
