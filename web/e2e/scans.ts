@@ -62,6 +62,14 @@ export function tubes(
   return fileOf(name, Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]));
 }
 
+/** Brightness of a projection at a place (mm to the patient's left, at half the height). */
+export async function brightness(viewer: Viewer, x: number): Promise<number> {
+  const { width, height, bytes } = await viewer.picture();
+  const { pixel_spacing, size } = await viewer.camera();
+  const column = Math.round((width - 1) / 2 + (x / pixel_spacing) * (width / size[0]));
+  return bytes[4 * (Math.round((height - 1) / 2) * width + column)] ?? 0;
+}
+
 export async function openScan(viewer: Viewer, scan: MadeFile): Promise<void> {
   await expect(viewer.page.getByRole('button', { name: 'Choose files' })).toBeEnabled();
   await viewer.page.locator('main input[type=file]').first().setInputFiles(scan);
