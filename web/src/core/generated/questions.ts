@@ -205,6 +205,9 @@ export type Edit = {
   readonly "kind": "set_bridge";
   readonly bridge: boolean;
 } | {
+  readonly "kind": "set_dark";
+  readonly dark: boolean;
+} | {
   readonly "kind": "hide_bone";
   readonly hidden: boolean;
 } | {
@@ -866,6 +869,8 @@ export type SavedSession = {
   readonly one_millimetre_assumed?: boolean;
   /** Whether the context hides bone; exists since version 2. */
   readonly bone_hidden?: boolean;
+  /** Whether tracing looks for dark lumens; exists since version 2. */
+  readonly dark?: boolean;
   /** The scan that the reader compares with this one; exists since version 2. */
   readonly compared?: SavedComparison;
 };
@@ -1103,6 +1108,8 @@ export type VesselDocument = {
   readonly bridge: boolean;
   /** Whether the context hides bone. */
   readonly bone_hidden: boolean;
+  /** Whether tracing looks for lumens that are darker than the tissue around them. */
+  readonly dark: boolean;
 };
 
 export type VesselReport = {
@@ -1373,11 +1380,12 @@ export type Questions = {
     readonly message: LineContent;
     readonly answer: number;
   };
-  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone. */
+  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone, and tracing may look for dark lumens. */
   readonly show: {
     readonly message: {
       readonly lines: ReadonlyArray<ListedLine>;
       readonly bone_hidden: boolean;
+      readonly dark: boolean;
     };
     readonly answer: Report;
   };
