@@ -114,6 +114,7 @@ export class FakeTracing implements Asked {
       added: ids.filter((id) => !before.includes(id)),
       without_marks: before.filter((id) => !ids.includes(id)),
       notes: this.notes,
+      doubts: [],
       told: null,
     };
   }

@@ -19,6 +19,7 @@ pub mod failure;
 pub mod held_volume;
 mod histogram;
 mod hung;
+mod known_names;
 mod labels;
 pub mod line_edits;
 mod line_facts;

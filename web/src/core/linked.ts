@@ -45,6 +45,8 @@ export interface OtherScan {
   readonly count: number;
   readonly name: string;
   readonly grid: SavedScan;
+  /** Its histogram as text, which identifies its values. */
+  readonly values: string;
   readonly corners: readonly Vector[];
   readonly lines: readonly LineId[];
   readonly isHounsfield: boolean;

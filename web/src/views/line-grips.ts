@@ -11,7 +11,7 @@ export interface LinePlace {
 }
 
 /** Least distance of neighbouring grips (CSS pixels). */
-const APART_PX = 48;
+export const APART_PX = 48;
 
 /** Places at equal distances along the parts of a line that lie in the slice; each part has at least one. */
 export function gripsOf(points: readonly Vector[], projection: Projection): LinePlace[] {

@@ -19,6 +19,7 @@ use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
+use crate::study::known_names::KnownNames;
 use crate::study::without_bone::WithoutBone;
 use crate::suggested_names::{SuggestedName, suggested_names};
 use crate::value_unit::ValueUnit;
@@ -65,6 +66,7 @@ pub struct Content {
     pub(crate) named: Option<NamedTree>,
     pub(crate) can_reorder: bool,
     pub(crate) without_bone: WithoutBone,
+    pub(crate) known_names: KnownNames,
     windows: OnceLock<Option<Windows>>,
 }
 
@@ -170,7 +172,7 @@ impl Content {
         let (lines, vessels) = named.measured_among();
         let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
         let suggested = suggested_names(&tubes, self.volume().as_ref());
-        lines.iter().copied().zip(suggested).collect()
+        lines.iter().copied().zip(self.known_names.with(lines, suggested)).collect()
     }
 
     /// The open volume, if it is valid.

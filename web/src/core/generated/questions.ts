@@ -265,6 +265,8 @@ export type Edited = {
   readonly added: ReadonlyArray<number>;
   readonly without_marks: ReadonlyArray<number>;
   readonly notes: ReadonlyArray<string>;
+  /** Places from which found vessels are doubtful. */
+  readonly doubts: ReadonlyArray<VesselDoubt>;
   /** The report on the traced vessel, if it is a single one. */
   readonly told: Told | null;
 };
@@ -1093,6 +1095,17 @@ export type VesselDocument = {
   readonly bridge: boolean;
   /** Whether the context hides bone. */
   readonly bone_hidden: boolean;
+};
+
+/** A doubt about a vessel that was found, with its place. */
+export type VesselDoubt = {
+  readonly line: number;
+  /** The reason in short, the same for all doubts of one kind. */
+  readonly kind: string;
+  /** A sentence that states the reason of the doubt. */
+  readonly words: string;
+  /** The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line. */
+  readonly at: number | null;
 };
 
 export type VesselReport = {
