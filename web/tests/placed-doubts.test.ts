@@ -1,4 +1,3 @@
-/** Doubts about vessels are grouped by kind, as long as their lines are shown. */
 import { expect, test } from 'vitest';
 import type { DocumentVessel, VesselDoubt } from '../src/core/messages';
 import { placedDoubts } from '../src/state/placed-doubts';

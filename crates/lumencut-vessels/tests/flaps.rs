@@ -96,7 +96,6 @@ fn profile(off: f64, level: impl Fn(DVec2) -> f64) -> Profile {
     profile_of(off, &[slice(level)])
 }
 
-/// The same of a vessel that consists of equally long parts.
 fn profile_of(off: f64, parts: &[Vec<f64>]) -> Profile {
     let mut noise = noise();
     let part = |k: usize| &parts[k * parts.len() / SIZE[2]];

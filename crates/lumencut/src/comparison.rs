@@ -36,7 +36,6 @@ impl Compared<'_> {
         doubts.chain(self.changes()).chain([typical, self.matched()]).collect()
     }
 
-    /// The doubts about the scans and about the profiles.
     pub(crate) fn all_doubts(&self) -> Vec<&str> {
         self.doubts.iter().map(String::as_str).chain(self.is_of_one_scan().then_some(SAME)).collect()
     }

@@ -45,7 +45,7 @@ export interface OtherScan {
   readonly count: number;
   readonly name: string;
   readonly grid: SavedScan;
-  /** Its histogram as text, which identifies its values. */
+  /** Its histogram. */
   readonly values: string;
   readonly corners: readonly Vector[];
   readonly lines: readonly LineId[];

@@ -1,4 +1,3 @@
-/** Chart of the diameter by arc length. */
 import { DEVIATIONS } from '../core/generated/tables';
 import type { Axis, ChartLayout } from '../core/messages';
 import type { Kind } from './marks';

@@ -1,4 +1,3 @@
-/** The doubts about the shown vessels, by kind. */
 import { computed } from '@preact/signals';
 import type { DocumentVessel, VesselDoubt } from '../core/messages';
 import { tree } from './shown';

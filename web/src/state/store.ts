@@ -50,7 +50,6 @@ export const epoch = signal(0);
 export const report = signal<Report | null>(null);
 export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
-/** Places from which found vessels are doubtful. */
 export const vesselDoubts = signal<readonly VesselDoubt[]>([]);
 export const states = signal<States>({ spacing: true, orientation: true });
 export const scanStudy = signal<ScanStudy | null>(null);

@@ -7,7 +7,6 @@ import { goToVessel } from '../state/shown';
 
 interface LineDoubtsProps {
   readonly id: number;
-  /** Words before each doubt. */
   readonly words: string;
   readonly doubts: readonly DoubtfulPlace[];
 }

@@ -34,7 +34,6 @@ export function NumbersPanel() {
   );
 }
 
-/** The doubts about the line of the measured vessel: its numbers may be those of another lumen. */
 function Doubts() {
   const { id, line } = tree.value[store.pickedVessel.value ?? -1] ?? {};
   const doubts = store.vesselDoubts.value.filter((doubt) => doubt.line === line);

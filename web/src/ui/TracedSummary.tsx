@@ -1,5 +1,3 @@
-/** Summary of the vessel traced last: its length, its connections, and its doubts. */
-
 import { tracedSummary } from '../state/drawing';
 import { LineDoubts } from './LineDoubts';
 

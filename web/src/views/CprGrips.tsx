@@ -12,10 +12,8 @@ import { engine } from '../worker/engine';
 import { APART_PX } from './line-grips';
 
 interface CprGripsProps {
-  /** Size of the picture (CSS pixels), and of a pixel (mm). */
   readonly size: Pair;
   readonly spacing: number;
-  /** Column of the picture in the pane. */
   readonly left: number;
 }
 
@@ -44,7 +42,6 @@ export function CprGrips({ size, spacing, left }: CprGripsProps) {
 interface CprGripProps {
   readonly vessel: DocumentVessel;
   readonly number: number;
-  /** The pixel of the line in the picture. */
   readonly place: Pair;
   readonly spacing: number;
   readonly left: number;

@@ -1,5 +1,3 @@
-/** View of the picked vessel as straightened CPR. */
-
 import { useCallback, useState } from 'preact/hooks';
 import { DEFAULTS, PIXEL_SIDES } from '../core/generated/tables';
 import type { Cpr, Pair } from '../core/messages';

@@ -15,7 +15,6 @@ import type { Projection } from './projection';
 /** If many vessels are shown, others farther from the cross-hair (mm) are drawn only where a slice cuts them. */
 const FAR = 25;
 
-/** Whether a vessel is drawn beyond its slice while tracing: many would cover the picture. */
 function isDrawnWhole(vessel: DocumentVessel): boolean {
   const hair = crossHair.value;
   return (

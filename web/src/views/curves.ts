@@ -10,7 +10,6 @@ import type { Projection } from './projection';
 export const NEAR = 2;
 const HIT_DISTANCE_PX = 7;
 
-/** Whether a line comes within this distance of a place (mm). */
 export const passesNear = (points: readonly Vector[], place: Vector, most: number): boolean =>
   points.some((point) => length(subtract(point, place)) <= most);
 

@@ -99,7 +99,6 @@ impl Study {
         Ok(add_held(draft, self.trace_from(seed, watch)?, "Branch"))
     }
 
-    /// Adds all vessels of the scan; returns notes and doubts.
     fn add_found(
         &mut self,
         draft: &mut Draft,

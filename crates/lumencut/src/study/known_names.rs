@@ -21,7 +21,6 @@ impl KnownNames {
         lines.iter().zip(suggested).map(kept).collect()
     }
 
-    /// As [`Self::with`]; keeps the result.
     pub(crate) fn keep(&mut self, lines: &[usize], suggested: Vec<SuggestedName>) -> Vec<SuggestedName> {
         let all = self.with(lines, suggested);
         self.0.extend(lines.iter().copied().zip(all.iter().cloned()));

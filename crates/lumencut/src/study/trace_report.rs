@@ -38,7 +38,6 @@ pub(crate) struct DoubtfulPlace {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct VesselDoubt {
     pub(crate) line: usize,
-    /// The reason in short, the same for all doubts of one kind.
     pub(crate) kind: String,
     #[serde(flatten)]
     pub(crate) place: DoubtfulPlace,

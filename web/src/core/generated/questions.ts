@@ -1100,7 +1100,6 @@ export type VesselDocument = {
 /** A doubt about a vessel that was found, with its place. */
 export type VesselDoubt = {
   readonly line: number;
-  /** The reason in short, the same for all doubts of one kind. */
   readonly kind: string;
   /** A sentence that states the reason of the doubt. */
   readonly words: string;

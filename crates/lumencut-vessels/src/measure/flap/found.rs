@@ -44,7 +44,6 @@ impl LumenPair {
         Self { found, contours: Default::default(), areas: [[f64::NAN; 2]; 2] }
     }
 
-    /// Distance of the middles of both other lumens (mm).
     pub(super) fn other_moves(&self, next: &Self) -> f64 {
         let [here, there] = [self, next].map(|pair| {
             let corners = &pair.contours[1];
@@ -53,7 +52,6 @@ impl LumenPair {
         here.distance(there)
     }
 
-    /// Diameter of a circle with the area of the other lumen (mm).
     pub(super) fn other_diameter(&self) -> f64 {
         2.0 * (self.areas[1][0] / PI).sqrt()
     }
