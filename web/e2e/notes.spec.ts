@@ -71,3 +71,17 @@ test('notes work by keyboard and by touch', async ({ browser }) => {
   viewer.expectNoFault();
   await viewer.close();
 });
+
+test('a doubt about the axes of a scan is shown when it opens', async ({ browser }) => {
+  const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
+  const grid = { counts: [20, 230, 20], side: 1, middle: [0, 0, 0] } as const;
+  await openScan(
+    viewer,
+    nrrd('lying.nrrd', grid, (x) => 10 * x),
+  );
+  await expect(viewer.page.getByTestId('told')).toContainText(
+    'The scan is 230 mm long from front to back, but 20 mm from side to side and 20 mm from foot to head',
+  );
+  viewer.expectNoFault();
+  await viewer.close();
+});
