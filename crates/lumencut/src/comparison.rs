@@ -8,6 +8,8 @@ use serde::Serialize;
 use crate::profile_json::document;
 use crate::text::{fixed, rounded};
 
+/// Diameters that differ by less in every section are equal (mm).
+const EQUAL_MM: f64 = 0.005;
 const SAME: &str = "both profiles are equal in every section: perhaps both are of one scan";
 
 /// Digits of the numbers of a table.
@@ -40,11 +42,11 @@ impl Compared<'_> {
         self.doubts.iter().map(String::as_str).chain(self.is_of_one_scan().then_some(SAME)).collect()
     }
 
-    /// Whether both profiles are equal: the noise of two scans differs.
+    /// Whether both profiles are equal but for the interpolation between sections: the noise of two scans differs.
     fn is_of_one_scan(&self) -> bool {
-        let mut differences = self.comparison.places.iter().map(|place| place.difference);
-        self.comparison.places.iter().any(|place| place.difference == 0.0)
-            && differences.all(|difference| difference.is_nan() || difference == 0.0)
+        let mut differences =
+            self.comparison.places.iter().map(|place| place.difference.abs()).filter(|one| one.is_finite());
+        differences.next().is_some_and(|first| first < EQUAL_MM) && differences.all(|one| one < EQUAL_MM)
     }
 
     /// The changes, one sentence each, or that there is none.

@@ -45,7 +45,6 @@ export interface OtherScan {
   readonly count: number;
   readonly name: string;
   readonly grid: SavedScan;
-  /** Its histogram. */
   readonly values: string;
   readonly corners: readonly Vector[];
   readonly lines: readonly LineId[];

@@ -119,7 +119,6 @@ async function showStudy({ report, notes, states, study = null }: Opened, name: 
     });
     beginStudy(vessels);
   });
-  // Doubts about size or axes concern every picture.
   const [doubt] = report.volume?.notes ?? [];
   if (doubt) {
     showMessage(`${doubt[0]?.toUpperCase()}${doubt.slice(1)}.`);

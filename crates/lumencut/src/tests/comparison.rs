@@ -61,6 +61,7 @@ fn words_table_json_and_report_state_the_same_change() {
 
 #[test]
 fn without_a_change_they_say_so() {
+    compared_by(1.002, |compared| assert_eq!(compared.all_doubts(), ["another patient?"]));
     compared_by(1.0, |compared| {
         assert!(compared.lines()[1].starts_with("both profiles are equal in every section"));
         assert_eq!(compared.lines()[2], "no change beyond 2 standard deviations of both diameters");
