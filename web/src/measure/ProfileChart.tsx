@@ -18,7 +18,6 @@ export interface ChartMark {
 }
 
 interface ProfileChartProps {
-  /** The axis of the arc length. */
   readonly x: Axis;
   readonly layout: ChartLayout;
   /** Whether lengths are in mm. */

@@ -40,7 +40,6 @@ export function Guide() {
 
 interface GuideStep {
   readonly title: string;
-  /** Sentences of the step. */
   readonly words: readonly string[] | (() => readonly string[]);
   readonly isDone: () => boolean;
 }

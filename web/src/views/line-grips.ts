@@ -1,4 +1,3 @@
-/** Where the line of a vessel has grips in a slice. */
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { isNear } from './curves';
