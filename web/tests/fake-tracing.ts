@@ -194,6 +194,7 @@ export function reportOf(lines: readonly NamedLine[]): Report {
     smallest_side: 1,
     pixel_side: 0.25,
     scan: '',
+    doubt: null,
     notes: [],
     contours: [],
   } as const;

@@ -119,7 +119,7 @@ async function showStudy({ report, notes, states, study = null }: Opened, name: 
     });
     beginStudy(vessels);
   });
-  const [doubt] = report.volume?.notes ?? [];
+  const doubt = report.volume?.doubt;
   if (doubt) {
     showMessage(`${doubt[0]?.toUpperCase()}${doubt.slice(1)}.`);
   }

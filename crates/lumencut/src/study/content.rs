@@ -103,7 +103,9 @@ pub(crate) struct VolumeReport {
     pub(crate) pixel_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
-    /// Notes for the user on its size and its values.
+    /// Doubt about its size or axes, which concerns every picture.
+    pub(crate) doubt: Option<String>,
+    /// Notes for the user, this doubt included.
     pub(crate) notes: Vec<String>,
 }
 
@@ -268,6 +270,7 @@ impl Content {
 impl VolumeReport {
     fn of(held: &HeldVolume) -> Result<Self> {
         let volume = held.volume()?;
+        let doubt = doubted_grid(held.size, held.world_from_index);
         Ok(Self {
             size: held.size,
             world_from_index: DMat4::from(held.world_from_index).transpose().to_cols_array_2d(),
@@ -275,7 +278,8 @@ impl VolumeReport {
             smallest_side: volume.smallest_side(),
             pixel_side: pixel_side(volume.smallest_side()),
             scan: held.scan.words(),
-            notes: doubted_grid(held.size, held.world_from_index).into_iter().collect(),
+            notes: doubt.iter().cloned().collect(),
+            doubt,
         })
     }
 }

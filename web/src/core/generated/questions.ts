@@ -1139,7 +1139,9 @@ export type VolumeReport = {
   readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
-  /** Notes for the user on its size and its values. */
+  /** Doubt about its size or axes, which concerns every picture. */
+  readonly doubt: string | null;
+  /** Notes for the user, this doubt included. */
   readonly notes: ReadonlyArray<string>;
 };
 
