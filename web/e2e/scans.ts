@@ -31,12 +31,25 @@ export const vertebra: Bone = (x, y, z) => {
   return depth < 0 ? null : depth < 2.5 ? 900 : 150;
 };
 
-/** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. */
-export const tubes = (name: string, shift = 0, bone: Bone = rod): MadeFile =>
+/** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. `as` changes all values. */
+export const tubes = (
+  name: string,
+  shift = 0,
+  bone: Bone = rod,
+  as: (value: number) => number = (value) => value,
+): MadeFile =>
   nrrd(name, { counts: COUNTS, side: SIDE, middle: [0, 0, shift] }, (x, y, z) => {
     const inside = [radius(z) - Math.hypot(x - NARROWED, y), 3.5 - Math.hypot(x - STRAIGHT, y)];
-    return bone(x, y, z) ?? lumen(Math.max(...inside));
+    return as(bone(x, y, z) ?? lumen(Math.max(...inside)));
   });
+
+/** Brightness of a projection at a place (mm to the patient's left, at half the height). */
+export async function brightness(viewer: Viewer, x: number): Promise<number> {
+  const { width, height, bytes } = await viewer.picture();
+  const { pixel_spacing, size } = await viewer.camera();
+  const column = Math.round((width - 1) / 2 + (x / pixel_spacing) * (width / size[0]));
+  return bytes[4 * (Math.round((height - 1) / 2) * width + column)] ?? 0;
+}
 
 export async function openScan(viewer: Viewer, scan: MadeFile): Promise<void> {
   await expect(viewer.page.getByRole('button', { name: 'Choose files' })).toBeEnabled();

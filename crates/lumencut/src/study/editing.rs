@@ -28,7 +28,9 @@ impl Study {
     /// The document after an edit. If clicks, stoppers or bridging change, all vessels with clicks are traced again. They can join
     /// the other vessels that are not doubtful.
     pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
+        self.trace_dark(message.document.dark);
         let mut draft = Draft::of(message.document.clone(), self.last_id);
+        draft.kind = self.content.kind();
         let (mut notes, mut doubts) = (Vec::new(), Vec::new());
         let is_traced = match &message.edit {
             Edit::AddBranches { seed } => {
@@ -106,7 +108,8 @@ impl Study {
         watch: Watch,
     ) -> Result<(Vec<String>, Vec<VesselDoubt>)> {
         let (found, notes) = self.find_vessels(doubtful, watch)?;
-        Ok((notes, add_held(draft, found, "Vessel")))
+        let name = draft.kind.words().name;
+        Ok((notes, add_held(draft, found, name)))
     }
 
     fn add_mask(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
@@ -165,6 +168,7 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
         Edit::MoveClick { id, number, point } => draft.move_click(*id, *number, *point),
         Edit::RemoveClick { id, number } => return draft.remove_click(*id, *number),
         Edit::SetBridge { bridge } => draft.document.bridge = *bridge,
+        Edit::SetDark { dark } => draft.set_dark(*dark),
         Edit::HideBone { hidden } => draft.document.bone_hidden = *hidden,
         Edit::AddStopper { .. } | Edit::MoveStopper { .. } | Edit::RemoveStopper { .. } => {
             draft.change_stoppers(edit);
