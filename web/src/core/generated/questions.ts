@@ -268,6 +268,8 @@ export type Edited = {
   readonly added: ReadonlyArray<number>;
   readonly without_marks: ReadonlyArray<number>;
   readonly notes: ReadonlyArray<string>;
+  /** Places from which found vessels are doubtful. */
+  readonly doubts: ReadonlyArray<VesselDoubt>;
   /** The report on the traced vessel, if it is a single one. */
   readonly told: Told | null;
 };
@@ -1112,6 +1114,16 @@ export type VesselDocument = {
   readonly dark: boolean;
 };
 
+/** A doubt about a vessel that was found, with its place. */
+export type VesselDoubt = {
+  readonly line: number;
+  readonly kind: string;
+  /** A sentence that states the reason of the doubt. */
+  readonly words: string;
+  /** The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line. */
+  readonly at: number | null;
+};
+
 export type VesselReport = {
   readonly line: number;
   /** Name; may be empty. */
@@ -1144,7 +1156,9 @@ export type VolumeReport = {
   readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
-  /** Notes for the user on its size and its values. */
+  /** Doubt about its size or axes, which concerns every picture. */
+  readonly doubt: string | null;
+  /** Notes for the user, this doubt included. */
   readonly notes: ReadonlyArray<string>;
 };
 
