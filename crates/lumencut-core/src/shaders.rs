@@ -66,5 +66,6 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/occlusion",
     "stages/rim",
     "stages/silhouette",
+    "stages/steady",
     "stages/surface",
 ];
