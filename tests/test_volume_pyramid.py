@@ -21,7 +21,7 @@ from lumencut import (
 )
 from lumencut.files.ome_zarr.writing import write_ome_zarr
 from lumencut.scene.view_extent import corners_in_view
-from zarr_images import write_image
+from zarr_images import halved, write_image
 
 WINDOW = Window(100, 600)
 
@@ -154,6 +154,37 @@ def test_measurements_sections_reformations_and_lines_are_the_same(stenosis):
     ends = vessel.points[[8, -8]]
     lines = [lumencut.trace(volume, ends)[0].points for volume in (read, made.volume)]
     np.testing.assert_array_equal(*lines)
+
+
+def tube_image(folder, radius):
+    """Write a straight tube along x in 240 × 160 × 160 voxels of 0.5 mm, and return points of its axis."""
+    z, y = np.mgrid[:160, :160]
+    disk = np.clip(radius - np.hypot(z - 80.3, y - 79.6) + 0.5, 0, 1)
+    voxels = np.repeat((20 + 280 * disk)[:, :, None], 240, axis=2).round().astype(np.int16)
+    levels = [voxels, halved(voxels), halved(halved(voxels))]
+    write_image(folder, levels, scale=(0.5, 0.5, 0.5), chunks=32)
+    return np.array([[10.0, 39.8, 40.15], [110.0, 39.8, 40.15]])
+
+
+@pytest.mark.parametrize(("radius", "level"), [(24.0, 1), (4.0, 0)])
+def test_a_line_is_traced_at_the_level_that_resolves_its_lumen(tmp_path, radius, level):
+    ends = tube_image(tmp_path / "tube.ome.zarr", radius)
+    read = lumencut.read_volume(tmp_path / "tube.ome.zarr")
+    line = lumencut.trace(read, ends)[0]
+    # Within a tenth of a voxel of the level, and of the radius.
+    side = 0.5 * 2**level
+    assert np.abs(line.points[:, 1:] - ends[0, 1:]).max() < 0.1 * side
+    np.testing.assert_allclose(np.median(line.radius), radius * 0.5, atol=0.1 * side)
+    whole = [one.bytes for one in read.levels]
+    # A narrow one is traced in its surroundings.
+    assert read.bytes_read <= (whole[1] + whole[2] if level else whole[0] // 2 + whole[1] + whole[2])
+
+
+def test_the_error_of_a_pyramid_is_that_of_its_finest_level(tmp_path):
+    ends = tube_image(tmp_path / "tube.ome.zarr", 4.0)
+    read = lumencut.read_volume(tmp_path / "tube.ome.zarr")
+    with pytest.raises(lumencut.TracingError, match="expected lumen"):
+        lumencut.trace(read, ends + np.array([0, 20, 0]))
 
 
 def test_the_part_in_view_is_what_the_pixels_cover():

@@ -54,7 +54,7 @@ test('bone disappears, vessels stay, and undo and redo switch between both', asy
   await viewer.close();
 });
 
-test('the keyboard hides bone, and a session keeps it hidden', async ({ browser }) => {
+test('the keyboard hides bone, and a session keeps it hidden', { tag: '@long' }, async ({ browser }) => {
   const viewer = await shownAsMip(browser);
   await button(viewer, 'Hide bone').focus();
   await viewer.press('Enter');
@@ -73,7 +73,7 @@ test('the keyboard hides bone, and a session keeps it hidden', async ({ browser 
   await viewer.close();
 });
 
-test('a tap hides bone', async ({ browser }) => {
+test('a tap hides bone', { tag: '@long' }, async ({ browser }) => {
   const viewer = await shownAsMip(browser, { hasTouch: true });
   await button(viewer, 'Hide bone').tap();
   await expect(hidden(viewer)).toBeVisible();

@@ -96,7 +96,9 @@ test('both scans turn together by mouse and keyboard, from either side', async (
   await viewer.close();
 });
 
-test('unlinked parts are free, and follow again when they are linked', async ({ browser }) => {
+test('unlinked parts are free, and follow again when they are linked', { tag: '@long' }, async ({
+  browser,
+}) => {
   const viewer = await both(browser);
   await button(viewer, 'Cameras').click();
   await viewer.look('l', 'A', 'S');
@@ -232,7 +234,7 @@ test('the grown stenosis is compared, charted and saved', async ({ browser }) =>
   await viewer.close();
 });
 
-test('by touch, a tap moves both cross-hairs', async ({ browser }) => {
+test('by touch, a tap moves both cross-hairs', { tag: '@long' }, async ({ browser }) => {
   const viewer = await both(browser, { hasTouch: true });
   await viewer.tap([0.5, 0.7]);
   await expect.poll(() => awayFrom(viewer)).toBeLessThan(1.5);
@@ -288,7 +290,9 @@ test('two patients are refused with both names, and compared if the reader insis
   await viewer.close();
 });
 
-test('a scan without the vessel is refused, and closing asks about unsaved work', async ({ browser }) => {
+test('a scan without the vessel is refused, and closing asks about unsaved work', { tag: '@long' }, async ({
+  browser,
+}) => {
   const viewer = await opened(browser, filesAt('later', LATER), { viewport: { width: 1024, height: 768 } });
   await openOther(viewer, [scanAt('earlier.nrrd', EARLIER)]);
   // Half of a small window has room for one view.

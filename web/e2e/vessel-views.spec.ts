@@ -75,7 +75,9 @@ function expectDiameters(found: readonly number[], expected: readonly number[]):
   });
 }
 
-test('by keys: turning about a place shows its diameters, and the place keeps its pixel', async () => {
+test('by keys: turning about a place shows its diameters, and the place keeps its pixel', {
+  tag: '@long',
+}, async () => {
   await viewer.press('o');
   await expect(angle()).toBeFocused();
   const first = await viewer.camera();

@@ -62,7 +62,7 @@ test('a double click or the button traces the whole vessel, and a second click e
   await viewer.close();
 });
 
-test('by keys only: Enter twice at the cross-hair, and the key w', async ({ browser }) => {
+test('by keys only: Enter twice at the cross-hair, and the key w', { tag: '@long' }, async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   await viewer.click(await at(viewer, TRUNK), 'coronal');

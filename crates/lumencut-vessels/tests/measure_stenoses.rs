@@ -1,6 +1,8 @@
 //! Grades stenoses of known width, and suggests references.
 #![allow(clippy::unwrap_used)]
 
+use std::sync::LazyLock;
+
 use lumencut_core::error::ErrorKind;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::groups::Territory;
@@ -14,14 +16,19 @@ fn narrowed_by(percent: f64) -> Profile {
     profile(&scan.volume(), line, Some(FWHM), WallRequest::Automatic).unwrap()
 }
 
+static BY_40: LazyLock<Profile> = LazyLock::new(|| narrowed_by(40.0));
+static BY_50: LazyLock<Profile> = LazyLock::new(|| narrowed_by(50.0));
+
 fn beside(reference: &[f64]) -> Compared {
     Compared { reference: reference.to_vec(), ..Compared::default() }
 }
 
 #[test]
 fn stenoses_are_graded_to_three_points() {
-    for percent in [20.0, 40.0, 60.0, 80.0] {
-        let profile = narrowed_by(percent);
+    let others = [20.0, 60.0, 80.0].map(|percent| (percent, narrowed_by(percent)));
+    for (percent, profile) in
+        others.iter().map(|(percent, profile)| (*percent, profile)).chain([(40.0, &*BY_40)])
+    {
         let graded = profile.stenosis(30.0, Method::Nascet, &beside(&[45.0])).unwrap();
         assert!((graded.percent - percent).abs() < 3.0, "{percent}: {}", graded.percent);
         assert!((graded.percent - 100.0 * (1.0 - graded.diameter / graded.reference)).abs() < 1e-9);
@@ -35,7 +42,7 @@ fn stenoses_are_graded_to_three_points() {
 
 #[test]
 fn two_references_are_weighted_by_their_distances() {
-    let graded = narrowed_by(40.0).stenosis(30.0, Method::Area, &beside(&[12.0, 40.0])).unwrap();
+    let graded = BY_40.stenosis(30.0, Method::Area, &beside(&[12.0, 40.0])).unwrap();
     let [[_, first], [_, second]] = graded.references[..] else { panic!("{:?}", graded.references) };
     assert_ne!(first, second);
     assert!((graded.reference - (first + (second - first) * 18.0 / 28.0)).abs() < 1e-9);
@@ -43,7 +50,7 @@ fn two_references_are_weighted_by_their_distances() {
 
 #[test]
 fn references_are_suggested_where_walls_are_parallel() {
-    let profile = narrowed_by(50.0);
+    let profile = &*BY_50;
     let [before, after] = profile.suggested_references(30.0).unwrap().map(Option::unwrap);
     assert!((20.0..=26.0).contains(&before.at) && (34.0..=40.0).contains(&after.at), "{before:?} {after:?}");
     assert!([before, after].iter().all(|spot| (spot.diameter / 5.0 - 1.0).abs() < 0.03));
@@ -53,7 +60,7 @@ fn references_are_suggested_where_walls_are_parallel() {
 
 #[test]
 fn nascet_is_refused_at_a_near_occlusion() {
-    let profile = narrowed_by(50.0);
+    let profile = &*BY_50;
     let compared = |width| Compared { comparison: Some(width), ..beside(&[45.0]) };
     assert!(profile.stenosis(30.0, Method::Nascet, &compared(5.5)).unwrap().percent > 40.0);
     let error = profile.stenosis(30.0, Method::Nascet, &compared(6.0)).unwrap_err();
@@ -62,7 +69,7 @@ fn nascet_is_refused_at_a_near_occlusion() {
 
 #[test]
 fn groups_change_where_whole_percentages_do() {
-    let graded = narrowed_by(40.0).stenosis(30.0, Method::Nascet, &beside(&[45.0])).unwrap();
+    let graded = BY_40.stenosis(30.0, Method::Nascet, &beside(&[45.0])).unwrap();
     for (percent, carotid, coronary) in [
         (0.4, "below 50 %", "0 %: CAD-RADS 0"),
         (24.4, "below 50 %", "1 to 24 %: CAD-RADS 1"),

@@ -7,13 +7,12 @@ import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.base.checks import callback
 from lumencut.base.foreign_errors import Progress
 from lumencut.base.overlaps import OverlapError
 from lumencut.base.rescale import slabs
@@ -22,14 +21,12 @@ from lumencut.dicom.reading import (
     list_dicom_series,
 )
 from lumencut.dicom.web.address import is_address
-from lumencut.errors import FormatError
+from lumencut.files.volume_choice import VolumeOptions
 from lumencut.files.volume_opening import (
     existing,
     log_oddities,
     open_volume,
-    open_wanted,
     silent,
-    wanted_of,
 )
 from lumencut.scene.images import as_volume
 from lumencut.scene.volume import Volume
@@ -159,10 +156,19 @@ def read_volume(
     PacsError
         For a PACS that cannot be reached, rejects the request, or does not send the complete series.
     """
-    callback(FormatError, "progress", progress)
     counted = progress if progress is not None else silent
-    wanted = wanted_of(series, phase, fill_gaps, resample_slices, segments, memory, channel, time_point)
-    file = open_wanted(path, wanted, counted)
+    file = open_volume(
+        path,
+        series=series,
+        phase=phase,
+        fill_gaps=fill_gaps,
+        resample_slices=resample_slices,
+        segments=segments,
+        memory=memory,
+        channel=channel,
+        time_point=time_point,
+        progress=progress,
+    )
     volume = file.volume(counted)
     if not file.format.startswith("DICOM"):
         counted(volume.size[2], volume.size[2])
@@ -203,33 +209,29 @@ def inspect_volume(
     VolumeReport
         Format, grid, values and oddities.
     """
-    callback(FormatError, "progress", progress)
-    counted = progress if progress is not None else silent
-    file = open_wanted(
-        path, wanted_of(series, phase, fill_gaps, resample_slices, None, memory, channel, time_point), counted
+    file = open_volume(
+        path,
+        series=series,
+        phase=phase,
+        fill_gaps=fill_gaps,
+        resample_slices=resample_slices,
+        memory=memory,
+        channel=channel,
+        time_point=time_point,
+        progress=progress,
     )
-    return _report(file, _values(file, counted) if values else None)
+    return _report(file, _values(file, progress) if values else None)
 
 
 def inspected_volume(
     path: str | os.PathLike[str],
     *,
-    series: str | int | None = None,
-    phase: str | float | None = None,
-    fill_gaps: bool = False,
-    resample_slices: bool = False,
-    memory: int | None = None,
-    channel: str | int | None = None,
-    time_point: int | None = None,
     progress: Progress | None = None,
+    **options: Unpack[VolumeOptions],
 ) -> tuple[VolumeReport, Volume]:
     """Return the report of `inspect_volume` and the volume, with the same parameters and errors."""
-    callback(FormatError, "progress", progress)
-    counted = progress if progress is not None else silent
-    file = open_wanted(
-        path, wanted_of(series, phase, fill_gaps, resample_slices, None, memory, channel, time_point), counted
-    )
-    volume = _values(file, counted)
+    file = open_volume(path, progress=progress, **options)
+    volume = _values(file, progress)
     report = _report(file, volume)
     if volume is None:
         # A label map cannot hold overlapping segments, but the grid is known.
@@ -237,10 +239,10 @@ def inspected_volume(
     return report, volume
 
 
-def _values(file: VolumeFile, counted: Progress) -> Volume | None:
+def _values(file: VolumeFile, progress: Progress | None) -> Volume | None:
     """Return the volume; if segments overlap, None and a note."""
     try:
-        return file.volume(counted)
+        return file.volume(progress if progress is not None else silent)
     except OverlapError as error:
         file.notes.append(f"{error.found}; {error.mend}")
         return None

@@ -19,10 +19,9 @@ from lumencut.scene.images import as_volume
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
+from lumencut.tracing.levels import trace_by_levels
 
 Progress = Callable[[int, int], object]
-#: Room around points for detours of a vessel, in addition to half of their extent (voxels).
-_DETOUR_IN_VOXELS = 20.0
 _Points = npt.NDArray[np.float64]
 
 
@@ -80,16 +79,22 @@ def trace(
         For anything that is not a volume.
     """
     lists = _lists(points)
-    tracer = Tracer(_around_points(as_volume(volume), lists), bridge=bridge)
-    for vessel, listed in enumerate(lists):
-        if len(listed) < 2:
-            found = counted(len(listed), "point")
-            raise TracingError(f"points of vessel {vessel}", found, "two or more, in order along the vessel")
-        for point in listed:
-            tracer.add(point, vessel)
-    for stopper in _rows("stoppers", stoppers):
-        tracer.stop(stopper, stopper_radius)
-    return tracer.route(names=names, progress=progress)
+
+    def route(part: Volume) -> VesselTree:
+        tracer = Tracer(part, bridge=bridge)
+        for vessel, listed in enumerate(lists):
+            if len(listed) < 2:
+                found = counted(len(listed), "point")
+                raise TracingError(
+                    f"points of vessel {vessel}", found, "two or more, in order along the vessel"
+                )
+            for point in listed:
+                tracer.add(point, vessel)
+        for stopper in _rows("stoppers", stoppers):
+            tracer.stop(stopper, stopper_radius)
+        return tracer.route(names=names, progress=progress)
+
+    return trace_by_levels(as_volume(volume), lists, route)
 
 
 class Tracer:
@@ -228,15 +233,6 @@ class Tracer:
 
     def _vessel(self, vessel: int) -> list[_Points]:
         return self._vessels[_index("vessel", vessel, len(self._vessels))]
-
-
-def _around_points(volume: Volume, lists: list[_Points]) -> Volume:
-    """Return the volume to trace in: of a pyramid, a box around the points that leaves room for detours."""
-    places = np.concatenate([*lists, np.empty((0, 3))])
-    if not len(places):
-        return volume
-    detour = float(np.linalg.norm(np.ptp(places, axis=0))) / 2
-    return volume._around(places, detour + _DETOUR_IN_VOXELS * float(volume.spacing.max()))
 
 
 def _lists(points: Any) -> list[_Points]:

@@ -254,12 +254,12 @@ fn blends_of_the_cut_surface_are_those_of_the_cpu() {
     let Some(device) = shared() else { return };
     let tree = random_tree(92, 8, 50, 2.0, 50.0).unwrap();
     let (scene, camera) = (Scene::default().with_tree(tree), view([0.3, 1.0, 0.2], SIZE, 1.1));
+    let mut renderer = GpuRenderer::new(Arc::clone(device));
     for settings in [Settings::default(), with(|s| s.lumen_first = false), Settings::paper()] {
         for more in [&[][..], &[Image::Leap], &[Image::Distance, Image::Depth]] {
             let images = ImageSet::of(&[Image::Blend]).and(ImageSet::of(more));
             let request = Request { images, ..Request::new(&camera, &settings) };
             let cpu = CpuRenderer::default().render(&scene, &request).unwrap();
-            let mut renderer = GpuRenderer::new(Arc::clone(device));
             let gpu = pollster::block_on(renderer.render(&scene, &request)).unwrap();
             assert_eq!((gpu.images(), cpu.images()), (images, images));
             let channel = |frame: &Frame, c: usize| frame.blend.iter().map(|b| b[c]).collect::<Vec<_>>();

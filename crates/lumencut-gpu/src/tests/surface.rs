@@ -38,16 +38,14 @@ fn depths(camera: &Camera, volume: &Volume) -> Vec<f32> {
     (0..camera.size()[0] * camera.size()[1]).map(depth).collect()
 }
 
-fn on_gpu(placed: &Placed, slab: Option<Slab>, geometry: &Geometry) -> Vec<f32> {
+fn on_gpu(stage: &mut Surface, placed: &Placed, slab: Option<Slab>, geometry: &Geometry) -> Vec<f32> {
     let mut recording = Recording::new(placed.device);
     let value = placed.device.image("value", placed.pixels(), 4);
     let depth = placed.device.image("depth", placed.pixels(), 4);
     placed.device.write(&depth, geometry.depth());
     let images = SurfaceImages { size: placed.camera.size(), geometry, depth: &depth, value: &value };
     let volume = (&placed.on_device, placed.volume);
-    Surface::new(placed.device)
-        .record(&mut recording, [&placed.view, &placed.grid], volume, slab, images)
-        .unwrap();
+    stage.record(&mut recording, [&placed.view, &placed.grid], volume, slab, images).unwrap();
     finish(recording, &value)
 }
 
@@ -75,13 +73,14 @@ fn compare(
     let placed = Placed::new(device, volume, camera);
     let orthographic = Geometry::Orthographic { camera: *camera, depth: depth.to_vec() };
     let geometries = [orthographic, curved(camera, depth)];
+    let mut stage = Surface::new(device);
+    let blocks = Blocks::new(volume, &|| false).unwrap();
     let mut most = 0.0f32;
     for (&slab, geometry) in slabs.iter().flat_map(|slab| geometries.iter().map(move |g| (slab, g))) {
         let mut expected = vec![0.0; depth.len()];
-        let blocks = Blocks::new(volume, &|| false).unwrap();
         let scene = SurfaceScene { geometry, volume, blocks: Some(&blocks), slab };
         surface(&on_cpu(camera), &scene, &mut expected).unwrap();
-        let found = on_gpu(&placed, slab, geometry);
+        let found = on_gpu(&mut stage, &placed, slab, geometry);
         let mut elsewhere = 0;
         for (found, expected) in found.iter().zip(&expected) {
             assert!(found.is_finite(), "{what}, {slab:?}: {found}");

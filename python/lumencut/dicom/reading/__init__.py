@@ -17,7 +17,7 @@ from lumencut.base.memory import require_memory
 from lumencut.base.series_report import SeriesReport
 from lumencut.dicom.reading.files import File, read_files
 from lumencut.dicom.reading.headers import is_dicom
-from lumencut.dicom.reading.judging import Wanted, described, judged
+from lumencut.dicom.reading.judging import DicomChoice, described, judged
 from lumencut.dicom.reading.pixels import check_pixels
 from lumencut.dicom.reading.segmentation import open_segmentation, wanted_segmentation
 from lumencut.dicom.reading.sources import is_zip
@@ -28,15 +28,15 @@ from lumencut.errors import FormatError
 from lumencut.scene.patients import Patient
 from lumencut.scene.volume_file import Filled, VolumeFile
 
-__all__ = ["Wanted", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
+__all__ = ["DicomChoice", "is_dicom", "is_zip", "list_dicom_series", "open_dicom", "opened"]
 
 
-def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
+def open_dicom(path: Path, wanted: DicomChoice, progress: Progress) -> VolumeFile:
     """Read the headers of a DICOM series; `progress` counts the files looked into."""
     return opened(path, wanted, lambda notes: read_files(path, notes, progress))
 
 
-def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File]]) -> VolumeFile:
+def opened(path: Path, wanted: DicomChoice, read: Callable[[list[str]], Sequence[File]]) -> VolumeFile:
     """Make one volume of the files that `read` returns, given a list for notes; `path` names them."""
     notes: list[str] = []
     remarks: list[str] = []

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from lumencut.base.foreign_errors import refusing
-from lumencut.dicom.reading import Wanted, opened
+from lumencut.dicom.reading import DicomChoice, opened
 from lumencut.dicom.reading.files import File, recorded
 from lumencut.dicom.reading.headers import Header, Image, header_tags
 from lumencut.dicom.reading.sources import Source
@@ -69,7 +69,7 @@ def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
     FormatError
         For datasets that are not one regular stack of grey slices.
     """
-    return opened(_SUBJECT, Wanted(), lambda notes: _images(datasets, notes))
+    return opened(_SUBJECT, DicomChoice(), lambda notes: _images(datasets, notes))
 
 
 def _images(datasets: Sequence[Any], notes: list[str]) -> list[File]:

@@ -27,17 +27,14 @@ from lumencut.scene.scan_details import ScanDetails
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What is requested of a volume: series, phase, segments, remedies; a part of OME-Zarr."""
+class DicomChoice:
+    """What is requested of DICOM files or a segmentation: series, phase, segments, remedies."""
 
     series: str | None = None
     phase: str | None = None
     fill_gaps: bool = False
     resample_slices: bool = False
     segments: tuple[int, ...] | None = None
-    memory: int | None = None
-    channel: str | int | None = None
-    time_point: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +47,7 @@ class Judged:
     scan: ScanDetails
 
 
-def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) -> Judged:
+def judged(path: Path, files: Sequence[File], wanted: DicomChoice, notes: list[str]) -> Judged:
     """Choose one series and find where its slices lie; `path` names all files together."""
     plan = _plan(path, files, wanted)
     if unlike := _unlike(plan, files, notes):
@@ -64,7 +61,7 @@ def judged(path: Path, files: Sequence[File], wanted: Wanted, notes: list[str]) 
     return Judged(stack, np.dtype(plan["stored_type"]), plan["details"], _scan(plan["scan"]))
 
 
-def _plan(path: Path, files: Sequence[File], wanted: Wanted, unlike: Sequence[Record] = ()) -> Record:
+def _plan(path: Path, files: Sequence[File], wanted: DicomChoice, unlike: Sequence[Record] = ()) -> Record:
     answer = judge_dicom(headers_document(files, unlike), wanted_document(wanted))
     plan: Record = _answer(path, files, answer)["plan"]
     return plan
@@ -100,7 +97,7 @@ def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> by
     return _document({"transfer_syntaxes": syntaxes, "files": records, "unlike": list(unlike)})
 
 
-def wanted_document(wanted: Wanted) -> bytes:
+def wanted_document(wanted: DicomChoice) -> bytes:
     """Return the choice in the form of the core."""
     # The core chooses only series, not segments.
     return _document({name: value for name, value in asdict(wanted).items() if name != "segments"})

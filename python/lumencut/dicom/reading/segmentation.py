@@ -15,7 +15,7 @@ from lumencut.base.overlaps import Overlaps, put, refuse_overlaps
 from lumencut.dicom.reading.decoding import NATIVE, PLUGINS
 from lumencut.dicom.reading.files import File
 from lumencut.dicom.reading.headers import Image
-from lumencut.dicom.reading.judging import Wanted
+from lumencut.dicom.reading.judging import DicomChoice
 from lumencut.dicom.reading.pixels import PixelReader
 from lumencut.dicom.reading.segment_frames import SegmentFrame, SegmentGrid, segment_grid
 from lumencut.dicom.reading.stack import Slice
@@ -33,7 +33,7 @@ def is_segmentation(image: Image) -> bool:
     return str(image.header.get("SOPClassUID") or "") in _SEGMENTATIONS
 
 
-def wanted_segmentation(path: Path, files: Sequence[File], wanted: Wanted) -> Image | None:
+def wanted_segmentation(path: Path, files: Sequence[File], wanted: DicomChoice) -> Image | None:
     """Return the segmentation that is meant: asked for as a series, or the only image; None for none.
 
     Raises

@@ -12,11 +12,11 @@ import numpy.typing as npt
 from lumencut.base.checks import integers
 from lumencut.base.foreign_errors import refusing
 from lumencut.base.memory import PYRAMID_MEMORY, in_words
-from lumencut.dicom.reading.judging import Wanted
 from lumencut.errors import FormatError
 from lumencut.files.ome_zarr.multiscales import Axis, Multiscale, StoredLevel, multiscale_of
 from lumencut.files.ome_zarr.stored_array import StoredArray
 from lumencut.files.ome_zarr.stores import answering, open_group
+from lumencut.files.volume_choice import ZarrChoice
 from lumencut.scene.volume_file import VolumeFile
 from lumencut.scene.volume_pyramid import PyramidLevel, VolumePyramid
 
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 _LEAST_MEMORY = 1_000_000
 
 
-def pyramid_file(given: str | os.PathLike[str], wanted: Wanted) -> VolumeFile:
+def pyramid_file(given: str | os.PathLike[str], wanted: ZarrChoice) -> VolumeFile:
     """Open an OME-Zarr image; no voxel is read.
 
     Parameters
     ----------
     given : str or path
         A folder, a zip archive, or the address of a server on this machine.
-    wanted : Wanted
+    wanted : ZarrChoice
         The memory, and the channel and the time point where there are several.
 
     Raises
@@ -99,7 +99,7 @@ def _array(group: zarr.Group, stored: StoredLevel, subject: str) -> zarr.Array[A
     return found
 
 
-def _picked(multiscale: Multiscale, array: zarr.Array[Any], wanted: Wanted, subject: str) -> list[int]:
+def _picked(multiscale: Multiscale, array: zarr.Array[Any], wanted: ZarrChoice, subject: str) -> list[int]:
     """Return the index of the channel, the time point and any other axis; 0 for spatial axes."""
     asked = {"channel": wanted.channel, "time": wanted.time_point}
     picked = []

@@ -1,5 +1,7 @@
 //! Tests the motion between two scans, and that a vessel is compared as in Python.
 
+use std::sync::LazyLock;
+
 use serde_json::{Value as Json, json};
 
 use crate::study::questions::ask_at_once;
@@ -38,16 +40,15 @@ fn pairs_determine_the_motion() {
     assert_eq!(motion([0.0; 3], &line).expect_err("a line").found, "3 points on a line");
 }
 
-fn record(phantom: &str) -> String {
-    let mut study = opened(phantom);
+static RECORD: LazyLock<String> = LazyLock::new(|| {
+    let mut study = opened("stenosis");
     let line = report_of(&study)["vessels"][0]["line"].as_u64().expect("a line") as usize;
     study.profile_record(line, &|| false).expect("a record")
-}
+});
 
 fn scans(more: &Json) -> Json {
-    let record = record("stenosis");
     let mut message = json!({
-        "records": [record, record], "pairs": [[20.0, 20.0]], "vessel": "ICA", "scans": ["2024", "2026"],
+        "records": [*RECORD, *RECORD], "pairs": [[20.0, 20.0]], "vessel": "ICA", "scans": ["2024", "2026"],
         "identities": [{"patient": "A1"}, {"patient": "A1"}], "other_patient": false, "is_named": true, "pictures": [],
     });
     for (name, value) in more.as_object().expect("names") {
