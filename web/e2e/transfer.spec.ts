@@ -16,17 +16,24 @@ test('points of a transfer function are dragged over the histogram, and by keys'
   };
   const point = (n: number) => viewer.page.getByRole('slider', { name: new RegExp(`^Point ${n} of`) });
   await viewer.research(async () => {
-    await changes(() => viewer.field('context$').selectOption('dvr'));
+    await changes(() => viewer.field('Context').selectOption('dvr'));
     await viewer.field('context transfer').selectOption('points');
     await expect(point(5)).toBeVisible();
     await viewer.rest();
+    const before = await point(2).getAttribute('aria-valuetext');
+    await point(2).hover();
+    const box = await point(2).boundingBox();
+    const [x, y] = [(box?.x ?? 0) + 6, (box?.y ?? 0) + 6];
+    await viewer.page.mouse.move(x, y);
+    await viewer.page.mouse.down();
+    await viewer.page.mouse.move(x - 10, y - 25, { steps: 4 });
+    await viewer.page.mouse.up();
+    await expect(point(2)).not.toHaveAttribute('aria-valuetext', before ?? '');
+    // The first point counts for all lower intensities, so that the air becomes opaque.
     await changes(async () => {
-      const box = await point(2).boundingBox();
-      const [x, y] = [(box?.x ?? 0) + 6, (box?.y ?? 0) + 6];
-      await viewer.page.mouse.move(x, y);
-      await viewer.page.mouse.down();
-      await viewer.page.mouse.move(x - 10, y - 25, { steps: 4 });
-      await viewer.page.mouse.up();
+      await point(1).focus();
+      await viewer.page.keyboard.press('Shift+ArrowUp');
+      await viewer.page.keyboard.press('Shift+ArrowUp');
     });
     const opacity = await point(2).getAttribute('aria-valuetext');
     await point(2).focus();

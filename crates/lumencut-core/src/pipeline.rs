@@ -53,7 +53,15 @@ pub struct Request<'a> {
 impl<'a> Request<'a> {
     /// A request for all images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
-        Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None, rim: None, before: None }
+        Self {
+            camera,
+            settings,
+            images: ImageSet::ALL,
+            stop: &|| false,
+            progress: None,
+            rim: None,
+            before: None,
+        }
     }
 
     /// The settings adapted to the vessels of the scene, checked. Fails with [`ErrorKind::Settings`] for a

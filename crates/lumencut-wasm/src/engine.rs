@@ -187,14 +187,13 @@ impl Engine {
         let stop = || stopping::is_asked(stopping::VIEW);
         let rim = rim.as_ref();
         let request = Request { images, stop: &stop, rim, before, ..Request::new(camera, settings) };
-        let (shown, depth) =
-            match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
-                Drawn::OnScreen(depth) => (None, depth),
-                Drawn::Frame(frame) => {
-                    let depth = frame.depth().to_vec();
-                    (Some(clamped(&frame.image.into_flattened())), depth)
-                }
-            };
+        let (shown, depth) = match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
+            Drawn::OnScreen(depth) => (None, depth),
+            Drawn::Frame(frame) => {
+                let depth = frame.depth().to_vec();
+                (Some(clamped(&frame.image.into_flattened())), depth)
+            }
+        };
         self.before = is_held.then_some((*camera, depth));
         Ok(shown)
     }

@@ -89,7 +89,7 @@ function Curve({ points, set }: { readonly points: Points; readonly set: (points
       <svg
         width={WIDTH}
         height={HEIGHT}
-        class="histogram"
+        class="curve"
         onDblClick={(event) => add(scale.low + event.offsetX * scale.perPixel, opacityAt(event.offsetY))}
       >
         <title>Opacity over intensity; double-click adds a point</title>
@@ -139,10 +139,19 @@ function PickedPoint({ points, at, set, add }: PickedProps) {
       <output>
         {Math.round(intensity)} · {Number(opacity.toPrecision(2))} per mm
       </output>
-      <button type="button" onClick={() => add((intensity + next[0]) / 2, (opacity + next[2]) / 2)}>
+      <button
+        type="button"
+        class="stays"
+        onClick={() => add((intensity + next[0]) / 2, (opacity + next[2]) / 2)}
+      >
         Add
       </button>
-      <button type="button" disabled={points.length < 2} onClick={() => set(withoutPoint(points, at))}>
+      <button
+        type="button"
+        class="stays"
+        disabled={points.length < 2}
+        onClick={() => set(withoutPoint(points, at))}
+      >
         Remove
       </button>
     </div>

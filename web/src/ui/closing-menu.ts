@@ -21,7 +21,7 @@ export function useClosing(): RefObject<HTMLDetailsElement | null> {
       }
     };
     const clicked = ({ target }: Event) => {
-      if ((target as Element).closest('button')) {
+      if ((target as Element).closest('button:not(.stays)')) {
         close();
       }
     };

@@ -53,7 +53,12 @@ impl Settings {
             && low >= high
         {
             let found = format!("{low} to {high}");
-            return Err(Error::new(ErrorKind::Settings, "colours of the rim", found, "rim_low below rim_high"));
+            return Err(Error::new(
+                ErrorKind::Settings,
+                "colours of the rim",
+                found,
+                "rim_low below rim_high",
+            ));
         }
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());

@@ -11,12 +11,12 @@ use lumencut_core::stages::body::BodyParameters;
 use lumencut_core::stages::composite::CompositeParameters;
 use lumencut_core::stages::depth_filter::DepthFilterParameters;
 use lumencut_core::stages::far_rim::FarRimParameters;
-use lumencut_core::stages::steady::SteadyParameters;
 use lumencut_core::stages::focus::FocusParameters;
 use lumencut_core::stages::leap::LeapParameters;
 use lumencut_core::stages::occlusion::{Blur, OcclusionParameters};
 use lumencut_core::stages::rim::{RimParameters, RimStrip};
 use lumencut_core::stages::silhouette::SilhouetteParameters;
+use lumencut_core::stages::steady::SteadyParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 

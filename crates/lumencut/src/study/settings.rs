@@ -2,7 +2,8 @@
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{
-    Choices, ControlPoint, Focus, Kind, LOOKS, Look, Setting, Preset, Settings, Slab, SlabMode, TransferFunction, Value, Window, table,
+    Choices, ControlPoint, Focus, Kind, LOOKS, Look, Preset, Setting, Settings, Slab, SlabMode,
+    TransferFunction, Value, Window, table,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
@@ -190,9 +191,14 @@ mod tests {
         let angio = preset_points("angio", window).expect("a preset");
         let made = of(&json!({"context_transfer": angio, "context": "dvr"})).expect("settings");
         let same = json!({"context_transfer": "angio", "context": "dvr", "context_window": [300.0, 600.0]});
-        assert_eq!(made.context.expect("dvr").transfer, of(&same).expect("settings").context.expect("dvr").transfer);
+        assert_eq!(
+            made.context.expect("dvr").transfer,
+            of(&same).expect("settings").context.expect("dvr").transfer
+        );
         assert!(preset_points("angia", window).is_err());
-        for wrong in [json!([]), json!([[0.0, [1, 2, 300], 0.5]]), json!([[0.0, [1, 2, 3], 1.5]]), json!([[0.0]])] {
+        for wrong in
+            [json!([]), json!([[0.0, [1, 2, 300], 0.5]]), json!([[0.0, [1, 2, 3], 1.5]]), json!([[0.0]])]
+        {
             let error = of(&json!({"context_transfer": wrong})).expect_err("wrong points");
             assert!(error.subject.ends_with("context_transfer"), "{}", error.subject);
         }
