@@ -31,8 +31,13 @@ export const vertebra: Bone = (x, y, z) => {
   return depth < 0 ? null : depth < 2.5 ? 900 : 150;
 };
 
-/** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. */
-export function tubes(name: string, shift = 0, bone: Bone = rod): MadeFile {
+/** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. `as` changes all values. */
+export function tubes(
+  name: string,
+  shift = 0,
+  bone: Bone = rod,
+  as: (value: number) => number = (value) => value,
+): MadeFile {
   const [columns, rows, slices] = COUNTS;
   const values = new Int16Array(columns * rows * slices);
   for (let n = 0; n < values.length; n++) {
@@ -40,7 +45,7 @@ export function tubes(name: string, shift = 0, bone: Bone = rod): MadeFile {
     const y = (Math.floor(n / columns) % rows) * SIDE - HALF[1];
     const z = Math.floor(n / columns / rows) * SIDE - HALF[2];
     const inside = [radius(z) - Math.hypot(x - NARROWED, y), 3.5 - Math.hypot(x - STRAIGHT, y)];
-    values[n] = bone(x, y, z) ?? lumen(Math.max(...inside));
+    values[n] = as(bone(x, y, z) ?? lumen(Math.max(...inside)));
   }
   const axis = (n: number) => `(${[0, 1, 2].map((m) => (m === n ? SIDE : 0)).join()})`;
   const header = [
@@ -55,6 +60,14 @@ export function tubes(name: string, shift = 0, bone: Bone = rod): MadeFile {
     'encoding: raw',
   ];
   return fileOf(name, Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]));
+}
+
+/** Brightness of a projection at a place (mm to the patient's left, at half the height). */
+export async function brightness(viewer: Viewer, x: number): Promise<number> {
+  const { width, height, bytes } = await viewer.picture();
+  const { pixel_spacing, size } = await viewer.camera();
+  const column = Math.round((width - 1) / 2 + (x / pixel_spacing) * (width / size[0]));
+  return bytes[4 * (Math.round((height - 1) / 2) * width + column)] ?? 0;
 }
 
 export async function openScan(viewer: Viewer, scan: MadeFile): Promise<void> {

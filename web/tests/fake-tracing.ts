@@ -200,7 +200,7 @@ export function reportOf(lines: readonly NamedLine[]): Report {
   return { volume, vessels, windows: null };
 }
 
-const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false, bone_hidden: false };
+const NOTHING: VesselDocument = { vessels: [], stoppers: [], bridge: false, bone_hidden: false, dark: false };
 
 function vesselOf(id: number): DocumentVessel {
   const color = '#ffffff';

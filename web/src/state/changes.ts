@@ -24,13 +24,14 @@ export function afterEdit(now: Document, { document, without_marks: lost }: Edit
     stoppers === now.stoppers &&
     document.bridge === now.bridge &&
     document.bone_hidden === now.bone_hidden &&
+    document.dark === now.dark &&
     lost.length === 0;
   if (isSame) {
     return now;
   }
   const marks = Object.entries(now.marks).filter(([id]) => !lost.includes(Number(id)));
-  const { bridge, bone_hidden } = document;
-  return { ...now, vessels, stoppers, bridge, bone_hidden, marks: Object.fromEntries(marks) };
+  const { bridge, bone_hidden, dark } = document;
+  return { ...now, vessels, stoppers, bridge, bone_hidden, dark, marks: Object.fromEntries(marks) };
 }
 
 function kept<T>(before: readonly T[], after: readonly T[]): readonly T[] {

@@ -57,9 +57,10 @@ const listOf = (vessels: readonly DocumentVessel[]): readonly ListedLine[] =>
       return { line, name: nameOf(vessel), hidden: isHidden, contours };
     });
 /** What the engine shows of a document. */
-const shownOf = ({ vessels, bone_hidden }: VesselDocument): Message<'show'> => ({
+const shownOf = ({ vessels, bone_hidden, dark }: VesselDocument): Message<'show'> => ({
   lines: listOf(vessels),
   bone_hidden,
+  dark,
 });
 const textOf = (document: VesselDocument): string => JSON.stringify(shownOf(document));
 

@@ -114,7 +114,10 @@ export const viewSettings = computed<Settings>(() => {
   chosen.window = window_.value;
   const own = windows?.contexts[String(context)];
   if (windows && own) {
-    chosen.context_window = moved(own, windows.main, window_.value);
+    const isChosen = window_.value.some((value, n) => value !== windows.main[n]);
+    // Smallest values are far below the vessels, so a window for those would show them white.
+    const isOwn = context === 'minip' && isChosen;
+    chosen.context_window = isOwn ? window_.value : moved(own, windows.main, window_.value);
   }
   return chosen;
 });

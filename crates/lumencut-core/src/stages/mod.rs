@@ -34,6 +34,8 @@ pub mod steady;
 #[doc(hidden)]
 pub mod surface;
 mod table;
+#[doc(hidden)]
+pub mod wall;
 
 pub use table::{Image, ImageSet, Stage};
 

@@ -20,6 +20,7 @@ mod steady;
 mod surface;
 mod ties;
 mod volume;
+mod wall;
 
 use std::sync::{Arc, OnceLock};
 

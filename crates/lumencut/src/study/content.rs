@@ -6,10 +6,12 @@ use std::sync::{Arc, OnceLock};
 use crate::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
 use glam::{DMat4, DVec3};
 use lumencut_core::named::Named;
+use lumencut_core::polarity::Polarity;
 use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
+use lumencut_vessels::kind::Kind;
 use serde::Serialize;
 
 use crate::cut_off_values::note_of;
@@ -18,7 +20,7 @@ use crate::doubted_scan::doubted_grid;
 use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
-use crate::study::held_volume::HeldVolume;
+use crate::study::held_volume::{HeldVolume, no_volume};
 use crate::study::without_bone::WithoutBone;
 use crate::suggested_names::{SuggestedName, suggested_names};
 use crate::value_unit::ValueUnit;
@@ -62,6 +64,8 @@ impl NamedTree {
 #[derive(Debug, Default)]
 pub struct Content {
     pub held: Option<HeldVolume>,
+    /// Whether tracing looks for bright or dark lumens.
+    pub(crate) polarity: Polarity,
     pub(crate) named: Option<NamedTree>,
     pub(crate) can_reorder: bool,
     pub(crate) without_bone: WithoutBone,
@@ -169,8 +173,27 @@ impl Content {
         let Some(named) = &self.named else { return HashMap::new() };
         let (lines, vessels) = named.measured_among();
         let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
-        let suggested = suggested_names(&tubes, self.volume().as_ref());
+        let suggested = self.names_for(&tubes);
         lines.iter().copied().zip(suggested).collect()
+    }
+
+    /// The suggested names of tubes; none while dark lumens are traced, because the names are those of vessels.
+    pub(crate) fn names_for(&self, tubes: &[(&[DVec3], Option<&[f64]>)]) -> Vec<SuggestedName> {
+        if self.polarity == Polarity::Dark {
+            return tubes.iter().map(|_| SuggestedName::default()).collect();
+        }
+        suggested_names(tubes, self.volume().as_ref())
+    }
+
+    /// The open volume as it is traced.
+    pub(crate) fn traced(&self) -> Result<Volume<'_>> {
+        Ok(self.held.as_ref().ok_or_else(no_volume)?.volume()?.with_polarity(self.polarity))
+    }
+
+    /// What is traced.
+    pub(crate) fn kind(&self) -> Kind {
+        let is_ct = self.windows().ok().flatten().is_some_and(|windows| windows.is_hounsfield);
+        Kind::of_scan(self.polarity, is_ct)
     }
 
     /// The open volume, if it is valid.

@@ -28,7 +28,9 @@ impl Study {
     /// The document after an edit. If clicks, stoppers or bridging change, all vessels with clicks are traced again. They can join
     /// the other vessels that are not doubtful.
     pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
+        self.trace_dark(message.document.dark);
         let mut draft = Draft::of(message.document.clone(), self.last_id);
+        draft.kind = self.content.kind();
         let mut notes = Vec::new();
         let is_traced = match &message.edit {
             Edit::AddBranches { seed } => {
@@ -96,7 +98,8 @@ impl Study {
     /// Adds all vessels of the scan; returns notes.
     fn add_found(&mut self, draft: &mut Draft, doubtful: bool, watch: Watch) -> Result<Vec<String>> {
         let (found, notes) = self.find_vessels(doubtful, watch)?;
-        Ok([notes, add_held(draft, found, "Vessel")].concat())
+        let name = draft.kind.words().name;
+        Ok([notes, add_held(draft, found, name)].concat())
     }
 
     fn add_mask(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
@@ -155,6 +158,7 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
         Edit::MoveClick { id, number, point } => draft.move_click(*id, *number, *point),
         Edit::RemoveClick { id, number } => return draft.remove_click(*id, *number),
         Edit::SetBridge { bridge } => draft.document.bridge = *bridge,
+        Edit::SetDark { dark } => draft.set_dark(*dark),
         Edit::HideBone { hidden } => draft.document.bone_hidden = *hidden,
         Edit::AddStopper { .. } | Edit::MoveStopper { .. } | Edit::RemoveStopper { .. } => {
             draft.change_stoppers(edit);

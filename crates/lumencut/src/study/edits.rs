@@ -50,6 +50,10 @@ pub(crate) enum Edit {
     SetBridge {
         bridge: bool,
     },
+    /// Sets whether tracing looks for dark lumens. Vessels keep their lines, but lose their clicks.
+    SetDark {
+        dark: bool,
+    },
     /// Sets whether the context hides bone.
     HideBone {
         hidden: bool,
@@ -146,6 +150,8 @@ impl Edit {
             Self::RemoveStopper { .. } => "remove a stopper",
             Self::SetBridge { bridge: true } => "bridge gaps",
             Self::SetBridge { bridge: false } => "leave gaps",
+            Self::SetDark { dark: true } => "trace dark lumens",
+            Self::SetDark { dark: false } => "trace bright lumens",
             Self::HideBone { hidden: true } => "hide bone",
             Self::HideBone { hidden: false } => "show bone",
             Self::Cut { .. } => "cut a vessel",

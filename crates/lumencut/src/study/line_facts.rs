@@ -8,7 +8,6 @@ use crate::parts::{parents, parts};
 use crate::study::failure::Result;
 use crate::study::lines::Line;
 use crate::study::open_study::Study;
-use crate::suggested_names::suggested_names;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -46,7 +45,7 @@ impl Study {
         let radii: Vec<_> = lines.iter().map(|line| line.known_radius()).collect();
         let tubes: Vec<_> =
             points.iter().zip(&radii).map(|(line, radius)| (*line, radius.as_deref())).collect();
-        let suggested = suggested_names(&tubes, self.content.volume().as_ref());
+        let suggested = self.content.names_for(&tubes);
         let fact = |n: usize| LineFacts {
             line: numbers[n],
             length: length_of(&lines[n]),

@@ -156,8 +156,9 @@ of_the_study {
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;
 
     /// Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured
-    /// together. Windows stay unchanged. The context may hide bone.
-    [Turn::First] show { lines: Vec<ListedLine>, bone_hidden: bool } -> Report = {
+    /// together. Windows stay unchanged. The context may hide bone, and tracing may look for dark lumens.
+    [Turn::First] show { lines: Vec<ListedLine>, bone_hidden: bool, dark: bool } -> Report = {
+        study.trace_dark(dark);
         study.hide_bone(bone_hidden, &lines, asking.watch)?;
         study.show(&lines)?;
         study.report()?

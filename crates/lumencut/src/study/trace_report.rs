@@ -63,7 +63,7 @@ impl Study {
 
     fn doubtful(&self, vessel: &DocumentVessel) -> Result<Vec<DoubtfulPlace>> {
         let Some(held) = &self.content.held else { return Ok(Vec::new()) };
-        let volume = held.volume()?;
+        let volume = held.volume()?.with_polarity(self.content.polarity);
         let line = self.lines.get(vessel.line)?;
         let clicks: Vec<DVec3> = vessel.clicks.iter().flatten().copied().map(DVec3::from_array).collect();
         let bridged = line.bridged.as_deref().unwrap_or_default();

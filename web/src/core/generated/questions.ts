@@ -208,6 +208,9 @@ export type Edit = {
   readonly "kind": "set_bridge";
   readonly bridge: boolean;
 } | {
+  readonly "kind": "set_dark";
+  readonly dark: boolean;
+} | {
   readonly "kind": "hide_bone";
   readonly hidden: boolean;
 } | {
@@ -349,6 +352,8 @@ export type Legend = {
   readonly high: number;
   readonly colours: ReadonlyArray<Vector>;
 };
+
+export type LensOf = "perspective" | "fisheye";
 
 export type LineContent = {
   /** At least two points (mm, LPS). */
@@ -652,6 +657,14 @@ export type Reformation = {
   readonly "kind": "map";
   readonly vessel: number;
   readonly of: MapOf;
+} | {
+  readonly "kind": "endoscopy";
+  readonly vessel: number;
+  /** Arc length (mm). */
+  readonly at: number;
+  readonly lens: LensOf;
+  /** Whether the eye looks towards the start of the vessel. */
+  readonly backwards: boolean;
 };
 
 export type ReformedPicture = {
@@ -859,6 +872,8 @@ export type SavedSession = {
   readonly one_millimetre_assumed?: boolean;
   /** Whether the context hides bone; exists since version 2. */
   readonly bone_hidden?: boolean;
+  /** Whether tracing looks for dark lumens; exists since version 2. */
+  readonly dark?: boolean;
   /** The scan that the reader compares with this one; exists since version 2. */
   readonly compared?: SavedComparison;
 };
@@ -1096,6 +1111,8 @@ export type VesselDocument = {
   readonly bridge: boolean;
   /** Whether the context hides bone. */
   readonly bone_hidden: boolean;
+  /** Whether tracing looks for lumens that are darker than the tissue around them. */
+  readonly dark: boolean;
 };
 
 export type VesselReport = {
@@ -1366,11 +1383,12 @@ export type Questions = {
     readonly message: LineContent;
     readonly answer: number;
   };
-  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone. */
+  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone, and tracing may look for dark lumens. */
   readonly show: {
     readonly message: {
       readonly lines: ReadonlyArray<ListedLine>;
       readonly bone_hidden: boolean;
+      readonly dark: boolean;
     };
     readonly answer: Report;
   };
