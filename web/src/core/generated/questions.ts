@@ -94,6 +94,9 @@ export type ComparedScans = {
   readonly axis: Axis;
 };
 
+/** A control point of a transfer function: intensity (unit of the volume), colour (RGB) and opacity per mm. */
+export type ControlPoint = readonly [number, Vector, number];
+
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -1598,6 +1601,14 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** The control points of a named transfer function in a window. */
+  readonly transfer_points: {
+    readonly message: {
+      readonly name: string;
+      readonly window: Pair;
+    };
+    readonly answer: ReadonlyArray<ControlPoint>;
+  };
   /** The table of settings. */
   readonly settings_table: {
     readonly message: null;
@@ -1679,6 +1690,7 @@ export const TURNS = {
   motion_between: { when: 'at once', words: null },
   compare_scans: { when: 'at once', words: null },
   comparison_file: { when: 'at once', words: null },
+  transfer_points: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
   regions: { when: 'at once', words: null },
