@@ -1,12 +1,12 @@
 """Synthetic scenes with known truth: volume, vessel tree, radii, stenoses and plaques.
 
 Small phantoms (`straight_tube`, `helix`, `y_junction`, `crossing`, `trefoil`, `collinear_run`, `stenosis`,
-`calcified_wall`) have closed-form answers: tubes in fat, no noise, voxels of 0.5 mm. Three workloads
-(`aorta`, `runoff`, `cervical`) have the sizes of Table 2 of Auzinger et al., IEEE TVCG 19(12), 2013,
-doi:10.1109/TVCG.2013.215, and resemble CT angiographies.
+`calcified_wall`) have closed-form answers: tubes in fat, no noise, voxels of 0.5 mm. `airways` has dark
+lumens in lung. Three workloads (`aorta`, `runoff`, `cervical`) have the sizes of Table 2 of Auzinger et
+al., IEEE TVCG 19(12), 2013, doi:10.1109/TVCG.2013.215, and resemble CT angiographies.
 
-In every phantom the lumen has 350 HU, the vessel wall 60 HU, soft plaque 40 HU and calcifications 1000 HU;
-fat around the small phantoms has -100 HU. Edges are ramps one voxel wide, centred on the true
+The lumen has 350 HU (-1000 HU in `airways`), the vessel wall 60 HU, soft plaque 40 HU and calcifications
+1000 HU; fat around the small phantoms has -100 HU. Edges are ramps one voxel wide, centred on the true
 surface. The wall is 0.5 mm + 8 % of the reference radius thick. A lumen is the union of its segments: rods
 with round ends whose radius is linear between points.
 """
@@ -30,6 +30,7 @@ __all__ = [
     "Phantom",
     "Plaque",
     "Stenosis",
+    "airways",
     "aorta",
     "calcified_wall",
     "cervical",
@@ -204,6 +205,16 @@ def calcified_wall() -> Phantom:
     It is 2 mm thick, 8 mm long and one radian wide, on the outside of the lumen towards the patient's left.
     """
     return _phantom("calcified_wall")
+
+
+def airways() -> Phantom:
+    """Airways in lung: six generations, each airway with a wider and a narrower branch.
+
+    Lumens of -1000 HU have radii from 6 to 1.3 mm and walls of 60 HU, 1 to 1.5 mm thick; lung has -850 HU,
+    the noise is 15 HU, and voxels have 0.7 mm. The walls of the airways "1.2" and "2.1.1" have a place of
+    4 mm where they are only 0.2 mm thick.
+    """
+    return _phantom("airways")
 
 
 def aorta(seed: int = 0, *, scale: float = 1.0) -> Phantom:

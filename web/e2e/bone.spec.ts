@@ -2,7 +2,7 @@
 import { type Browser, type BrowserContextOptions, expect, test } from '@playwright/test';
 import { button, choose, fileOf, SESSION, saved } from './controls';
 import { Viewer } from './page';
-import { NARROWED, openScan, STRAIGHT, tubes, vertebra } from './scans';
+import { brightness, NARROWED, openScan, STRAIGHT, tubes, vertebra } from './scans';
 
 const SIZE = { width: 1000, height: 640 };
 const SCAN = tubes('tubes.nrrd', 0, vertebra);
@@ -14,14 +14,6 @@ async function shownAsMip(browser: Browser, options: BrowserContextOptions = {})
   await button(viewer, 'MIP').click();
   await viewer.look('1', 'R', 'S');
   return viewer;
-}
-
-/** Brightness of the MIP at a place (mm to the patient's left, at half the height). */
-async function brightness(viewer: Viewer, x: number): Promise<number> {
-  const { width, height, bytes } = await viewer.picture();
-  const { pixel_spacing, size } = await viewer.camera();
-  const column = Math.round((width - 1) / 2 + (x / pixel_spacing) * (width / size[0]));
-  return bytes[4 * (Math.round((height - 1) / 2) * width + column)] ?? 0;
 }
 
 const atAll = async (viewer: Viewer): Promise<number[]> => {

@@ -51,7 +51,7 @@ describe('an edit', () => {
     const { vessels, stoppers } = document_.value;
     await setBridge(true);
     expect(tracing.edits.at(-1)).toEqual({
-      document: { vessels, stoppers, bridge: false, bone_hidden: false },
+      document: { vessels, stoppers, bridge: false, bone_hidden: false, dark: false },
       edit: { kind: 'set_bridge', bridge: true },
       bridging: false,
     });

@@ -19,6 +19,7 @@ const REPORT: Report = {
     smallest_side: 0.5,
     pixel_side: 0.25,
     scan: '',
+    doubt: null,
     notes: [],
   },
   vessels: [],
@@ -57,6 +58,7 @@ const DOCUMENT: Document = {
   marks: { 1: { ...NO_MARKS, at: 12.5, references: [3, 40], method: 'area', stretch: [1, 9] } },
   rulers: [{ from: [0, 0, 0], to: [3, 4, 0] }],
   bone_hidden: false,
+  dark: false,
   isOneMillimetre: false,
 };
 const LOOKED: DisplayState = {
@@ -132,6 +134,7 @@ describe('the content of a session', () => {
       'view',
       'one_millimetre_assumed',
       'bone_hidden',
+      'dark',
     ]);
   });
 });

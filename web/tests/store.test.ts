@@ -45,6 +45,8 @@ test('each context has its own window', () => {
   store.settings.value = {};
   store.window_.value = [320, 900];
   expect(store.viewSettings.value).toEqual({ window: [320, 900], context_window: [320, 900] });
+  store.window_.value = [-600, 1500];
+  expect(windowOf('minip'), 'a chosen window shows the smallest values too').toEqual([-600, 1500]);
 });
 
 test('a preset has the window of its number; without a volume there is none', () => {

@@ -44,7 +44,13 @@ export async function opened(phantom: string, scale = 1): Promise<Opened> {
   return { engine, report: () => ask(module, 'report', null), cancel };
 }
 
-export const EMPTY: VesselDocument = { vessels: [], stoppers: [], bridge: false, bone_hidden: false };
+export const EMPTY: VesselDocument = {
+  vessels: [],
+  stoppers: [],
+  bridge: false,
+  bone_hidden: false,
+  dark: false,
+};
 
 export const edited = async (engine: Asked, edit: Edit, document = EMPTY): Promise<Edited> =>
   (await engine.ask('edit', { document, edit, bridging: false })).edited;

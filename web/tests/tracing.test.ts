@@ -62,7 +62,7 @@ test('displayed vessels can be cut, joined and displayed again', async () => {
   const named = cut.document.vessels.map(({ line }, n) => ({
     ...{ line, name: `part ${n}`, hidden: false, contours: [] },
   }));
-  const shown = await engine.ask('show', { lines: named, bone_hidden: false });
+  const shown = await engine.ask('show', { lines: named, bone_hidden: false, dark: false });
   expect(shown.vessels?.map(({ name, length }) => [name, Math.round(length)])).toEqual([
     ['part 0', 20],
     ['part 1', 40],
@@ -70,7 +70,7 @@ test('displayed vessels can be cut, joined and displayed again', async () => {
   const joined = await edited(engine, { kind: 'join', id: 2, other: 1 }, cut.document);
   const { points } = await engine.ask('line', { line: lineOf(joined) });
   expect(points).toEqual((await engine.ask('line', { line: whole.vessels[0]?.line ?? -1 })).points);
-  expect((await engine.ask('show', { lines: [], bone_hidden: false })).vessels).toBeNull();
+  expect((await engine.ask('show', { lines: [], bone_hidden: false, dark: false })).vessels).toBeNull();
   const far = await refusal(edited(engine, { kind: 'cut', id: 1, at: 99 }, whole));
   expect(far.kind).toBe('vessel tree');
 });

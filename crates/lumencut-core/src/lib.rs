@@ -14,6 +14,7 @@ pub mod math;
 mod mend;
 pub mod named;
 pub mod pipeline;
+pub mod polarity;
 pub mod progress;
 pub mod reformations;
 pub mod scene;

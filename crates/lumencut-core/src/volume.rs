@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::polarity::Polarity;
 
 /// A voxel type, widened when it is read.
 pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
@@ -201,6 +202,7 @@ pub struct Volume<'a> {
     strides: [usize; 3],
     world_from_index: DAffine3,
     index_from_world: DAffine3,
+    polarity: Polarity,
 }
 
 impl<'a> Volume<'a> {
@@ -242,7 +244,18 @@ impl<'a> Volume<'a> {
             );
         }
         let index_from_world = world_from_index.inverse();
-        Ok(Self { voxels, size, strides, world_from_index, index_from_world })
+        Ok(Self { voxels, size, strides, world_from_index, index_from_world, polarity: Polarity::Bright })
+    }
+
+    /// The same voxels, in which lumen is traced and measured with this polarity. Pictures ignore it.
+    #[must_use]
+    pub fn with_polarity(self, polarity: Polarity) -> Self {
+        Self { polarity, ..self }
+    }
+
+    /// Whether the lumen that is traced and measured is bright or dark.
+    pub fn polarity(&self) -> Polarity {
+        self.polarity
     }
 
     /// The voxels in their own type.

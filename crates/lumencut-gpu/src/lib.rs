@@ -29,8 +29,11 @@ pub mod screen;
 mod silhouette;
 pub mod stage;
 pub mod stages;
+mod steady;
 mod surface;
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests;
 mod view;
 mod volume;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod wall;

@@ -78,6 +78,10 @@ pub struct Session {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(feature = "types", ts(as = "Option<bool>", optional))]
     pub bone_hidden: bool,
+    /// Whether tracing looks for dark lumens; exists since version 2.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "types", ts(as = "Option<bool>", optional))]
+    pub dark: bool,
     /// The scan that the reader compares with this one; exists since version 2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "types", ts(optional))]
@@ -92,8 +96,12 @@ impl Session {
         let has_contours = self.vessels.iter().any(is_by_hand);
         let has_slices = self.view.as_ref().is_some_and(|view| view.slices.is_some());
         let is_compared = self.compared.is_some();
-        let has_more =
-            self.one_millimetre_assumed || self.bone_hidden || has_contours || has_slices || is_compared;
+        let has_more = self.one_millimetre_assumed
+            || self.bone_hidden
+            || self.dark
+            || has_contours
+            || has_slices
+            || is_compared;
         FORMATS[usize::from(has_more || marks.into_iter().any(has_diameters))]
     }
 
@@ -284,6 +292,7 @@ fn check(lines: &[Line], session: &Session) -> Result<()> {
         let what = match session {
             Session { one_millimetre_assumed: true, .. } => "an assumed millimetre",
             Session { bone_hidden: true, .. } => "hidden bone",
+            Session { dark: true, .. } => "dark lumens",
             Session { vessels, .. } if vessels.iter().any(|vessel| !vessel.contours_mm.is_empty()) => {
                 "contours"
             }

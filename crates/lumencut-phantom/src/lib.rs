@@ -1,12 +1,13 @@
 //! Synthetic scenes whose true geometry is known.
 //!
 //! Small phantoms have closed-form answers: [`straight_tube`], [`helix`], [`y_junction`], [`crossing`], [`trefoil`],
-//! [`collinear_run`], [`stenosis`], [`calcified_wall`]. Three workloads have the sizes of the paper's Table 2: [`aorta`],
+//! [`collinear_run`], [`stenosis`], [`calcified_wall`]. [`airways`] has dark lumens with walls in lung. Three workloads have the sizes of the paper's Table 2: [`aorta`],
 //! [`runoff`], [`cervical`]; their anatomy of way points and simple solids resembles CT.
 //!
-//! Lumen has 350 HU, vessel wall 60 HU, soft plaque 40 HU, calcification 1000 HU. Edges are ramps one voxel wide, centred on the
+//! Lumen has 350 HU (−1000 in airways), vessel wall 60 HU, soft plaque 40 HU, calcification 1000 HU. Edges are ramps one voxel wide, centred on the
 //! true surface. A lumen is a union of round-ended segments with linearly varying radius.
 
+mod airways;
 mod anatomy;
 mod curve;
 mod lesion;
@@ -24,6 +25,7 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::{Volume, Voxels};
 
+pub use airways::airways;
 pub use lesion::{Plaque, PlaqueKind, Stenosis};
 pub use small::{
     calcified_wall, collinear_run, crossing, helix, stenosis, straight_tube, trefoil, y_junction,

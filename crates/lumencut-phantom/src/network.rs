@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::curve::{Curve, WayPoint};
 use crate::lesion::{Calcification, Plaque, PlaqueKind, Rod, Stenosis, WHOLE_RING, narrowing};
 use crate::random::{hash, uniform};
+use crate::wall_thickness;
 
 #[derive(Clone, Debug)]
 pub(crate) struct KnownVessel {
@@ -14,6 +15,8 @@ pub(crate) struct KnownVessel {
     pub(crate) lumen: Vec<f64>,
     /// Radius of the healthy lumen at each point (mm).
     pub(crate) reference: Vec<f64>,
+    /// Thickness of the wall at each point (mm).
+    pub(crate) wall: Vec<f64>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -164,11 +167,13 @@ fn cut(trunk: &Trunk, cuts: &[f64], per_mm: f64, made: &mut Vasculature) {
         // The ends are exactly at the cuts, so that neighbours share their end points.
         let place = |j: usize| if j == steps { to } else { from + (to - from) * j as f64 / steps as f64 };
         let places: Vec<f64> = (0..=steps).map(place).collect();
+        let reference: Vec<f64> = places.iter().map(|s| trunk.curve.at(*s).1).collect();
         let vessel = KnownVessel {
             name,
             points: places.iter().map(|s| trunk.curve.at(*s).0).collect(),
             lumen: places.iter().map(|s| trunk.lumen(*s)).collect(),
-            reference: places.iter().map(|s| trunk.curve.at(*s).1).collect(),
+            wall: reference.iter().copied().map(wall_thickness).collect(),
+            reference,
         };
         let piece = Piece { trunk, from, to, vessel: made.vessels.len(), points: &vessel.points };
         piece.add_lesions(n + 1 == pieces, made);

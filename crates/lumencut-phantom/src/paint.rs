@@ -10,7 +10,6 @@ use crate::network::{KnownVessel, Vasculature};
 use crate::random::{hash, normal};
 use crate::shape::{Cut, distance_to_line};
 use crate::tissue::{AIR, CALCIUM, FAT, LUMEN, Patterns, SOFT_PLAQUE, Solid, VESSEL_WALL, mix};
-use crate::wall_thickness;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
@@ -21,6 +20,21 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
+    /// A grid of cubes that surrounds the walls of vessels by a margin (mm).
+    pub(crate) fn around(vessels: &[KnownVessel], spacing: f64, margin: f64) -> Self {
+        let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
+        for vessel in vessels {
+            for (n, point) in vessel.points.iter().enumerate() {
+                let reach = vessel.reference[n] + vessel.wall[n] + margin;
+                (low, high) = (low.min(point - reach), high.max(point + reach));
+            }
+        }
+        let size = ((high - low) / spacing).ceil().to_array().map(|n| n as usize + 1);
+        // The grid is centred, so that symmetric phantoms stay symmetric.
+        let extent = DVec3::from_array(size.map(|n| (n - 1) as f64)) * spacing;
+        Self { size, spacing: DVec3::splat(spacing), origin: (low + high - extent) / 2.0 }
+    }
+
     pub(crate) fn world_from_index(&self) -> DAffine3 {
         DAffine3::from_scale_rotation_translation(self.spacing, glam::DQuat::IDENTITY, self.origin)
     }
@@ -30,12 +44,28 @@ impl Grid {
     }
 }
 
+#[derive(Default)]
 pub(crate) struct Scene {
     /// The solids in painting order: later ones cover earlier ones.
     pub(crate) solids: Vec<Solid>,
     pub(crate) background: f32,
     pub(crate) seed: u64,
     pub(crate) noise: f32,
+    pub(crate) materials: Materials,
+}
+
+/// The values (HU) of the parts of vessels.
+#[derive(Clone, Copy)]
+pub(crate) struct Materials {
+    pub(crate) wall: f32,
+    pub(crate) plaque: f32,
+    pub(crate) lumen: f32,
+}
+
+impl Default for Materials {
+    fn default() -> Self {
+        Self { wall: VESSEL_WALL, plaque: SOFT_PLAQUE, lumen: LUMEN }
+    }
 }
 
 /// Signed distances to lumen, healthy lumen, outer wall and calcium (mm, negative inside).
@@ -190,8 +220,8 @@ impl<'a> Painter<'a> {
         for stroke in mine() {
             self.each_pixel(rectangle(stroke), z, |n, _| {
                 let [lumen, healthy, outer, calcium] = std::mem::replace(&mut scratch.layers[n], [FAR; 4]);
-                let layers =
-                    [(outer, VESSEL_WALL), (healthy, SOFT_PLAQUE), (lumen, LUMEN), (calcium, CALCIUM)];
+                let Materials { wall, plaque, lumen: inside } = self.scene.materials;
+                let layers = [(outer, wall), (healthy, plaque), (lumen, inside), (calcium, CALCIUM)];
                 for (distance, hu) in layers {
                     scratch.hu[n] = mix(scratch.hu[n], hu, self.cover(distance));
                 }
@@ -237,7 +267,7 @@ fn strokes(vasculature: &Vasculature) -> Vec<Stroke> {
     let segment = |vessel: &KnownVessel, i: usize| {
         let layers = |i: usize| {
             let [lumen, healthy] = [vessel.lumen[i], vessel.reference[i]];
-            [lumen as f32, healthy as f32, (healthy + wall_thickness(healthy)) as f32, -FAR]
+            [lumen as f32, healthy as f32, (healthy + vessel.wall[i]) as f32, -FAR]
         };
         let ends = [vessel.points[i], vessel.points[i + 1]].map(|p| p.as_vec3());
         Stroke { ends, radius: [layers(i), layers(i + 1)] }

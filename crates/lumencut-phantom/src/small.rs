@@ -69,6 +69,7 @@ pub fn collinear_run() -> Result<Phantom> {
         bend.points.extend(&next.points[1..]);
         bend.lumen.extend(&next.lumen[1..]);
         bend.reference.extend(&next.reference[1..]);
+        bend.wall.extend(&next.wall[1..]);
     }
     let end_on = line("end-on", DVec3::new(15.0, -20.0, 0.0), DVec3::new(15.0, 20.0, 0.0), 40, 3.0);
     phantom("collinear_run", vec![bend, end_on])
@@ -140,7 +141,8 @@ fn line(name: &str, from: DVec3, to: DVec3, segments: usize, radius: f64) -> Kno
 fn sampled(name: &str, place: impl Fn(f64) -> DVec3, segments: usize, radius: f64) -> KnownVessel {
     let points = (0..=segments).map(|i| place(i as f64 / segments as f64)).collect();
     let radius = vec![radius; segments + 1];
-    KnownVessel { name: name.to_owned(), points, lumen: radius.clone(), reference: radius }
+    let wall = radius.iter().copied().map(wall_thickness).collect();
+    KnownVessel { name: name.to_owned(), points, lumen: radius.clone(), reference: radius, wall }
 }
 
 fn phantom(name: &'static str, vessels: Vec<KnownVessel>) -> Result<Phantom> {
@@ -148,17 +150,7 @@ fn phantom(name: &'static str, vessels: Vec<KnownVessel>) -> Result<Phantom> {
 }
 
 fn made(name: &'static str, vasculature: Vasculature) -> Result<Phantom> {
-    let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
-    for vessel in &vasculature.vessels {
-        for (point, radius) in vessel.points.iter().zip(&vessel.reference) {
-            let reach = radius + wall_thickness(*radius) + MARGIN;
-            (low, high) = (low.min(point - reach), high.max(point + reach));
-        }
-    }
-    let size = ((high - low) / SPACING).ceil().to_array().map(|n| n as usize + 1);
-    // The grid is centred, so that symmetric phantoms stay symmetric.
-    let extent = DVec3::from_array(size.map(|n| (n - 1) as f64)) * SPACING;
-    let grid = Grid { size, spacing: DVec3::splat(SPACING), origin: (low + high - extent) / 2.0 };
-    let scene = Scene { solids: Vec::new(), background: FAT, seed: 0, noise: 0.0 };
+    let grid = Grid::around(&vasculature.vessels, SPACING, MARGIN);
+    let scene = Scene { background: FAT, ..Scene::default() };
     Phantom::of(name, (&grid, &scene), vasculature, &|| false)
 }

@@ -76,7 +76,7 @@ impl Workload {
     pub fn make(&self, seed: u64, scale: f64, stop: Stop) -> Result<Phantom> {
         let grid = self.grid(scale)?;
         let Anatomy { vasculature, solids, background } = (self.anatomy)(seed, self.segments);
-        let scene = Scene { solids, background, seed, noise: NOISE };
+        let scene = Scene { solids, background, seed, noise: NOISE, ..Scene::default() };
         Phantom::of(self.name, (&grid, &scene), vasculature, stop)
     }
 

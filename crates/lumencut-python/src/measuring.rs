@@ -233,6 +233,12 @@ impl Profile {
         PyArray1::from_vec(py, flat).reshape([self.0.levels.len(), 2])
     }
 
+    /// Whether the lumen is "bright" or "dark" beside its surroundings.
+    #[getter]
+    fn polarity(&self) -> &'static str {
+        self.0.polarity().name()
+    }
+
     /// Noise of a voxel in the volume's unit.
     #[getter]
     fn noise(&self) -> f64 {

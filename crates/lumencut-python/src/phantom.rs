@@ -32,6 +32,7 @@ fn make(name: &str, percent: f64, (seed, scale): (u64, f64), stop: Stop) -> Resu
         "trefoil" => lumencut_phantom::trefoil(),
         "collinear_run" => lumencut_phantom::collinear_run(),
         "stenosis" => lumencut_phantom::stenosis(percent),
+        "airways" => lumencut_phantom::airways(),
         "calcified_wall" => lumencut_phantom::calcified_wall(),
         "aorta" => AORTA.make(seed, scale, stop),
         "runoff" => RUNOFF.make(seed, scale, stop),

@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::extent::Extent;
+use lumencut::named::Named;
+use lumencut::polarity::Polarity;
 use lumencut::scan_details::ScanDetails;
 use lumencut::stop::go_on;
 use lumencut::volume::{Volume, Voxels};
@@ -24,6 +26,8 @@ pub(crate) struct VolumeArgument<'py> {
     strides: [usize; 3],
     #[pyo3(attribute("_affine_rows"))]
     affine_rows: [[f64; 4]; 3],
+    #[pyo3(attribute("_polarity"))]
+    polarity: String,
     scan: ScanArgument,
 }
 
@@ -72,7 +76,9 @@ impl<'py> VolumeArgument<'py> {
 
     pub(crate) fn volume<'a>(&self, borrowed: &'a Borrowed<'py>) -> PyResult<Volume<'a>> {
         let affine = affine(self.affine_rows);
-        Volume::new(borrowed.voxels()?, self.size, self.strides, affine).map_err(to_python)
+        let volume = Volume::new(borrowed.voxels()?, self.size, self.strides, affine);
+        let polarity = Polarity::named("polarity", &self.polarity);
+        volume.and_then(|volume| Ok(volume.with_polarity(polarity?))).map_err(to_python)
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! All points are in world space (LPS, mm).
 
+pub mod kind;
 pub mod measure;
 pub mod trace;
 pub mod voxels;

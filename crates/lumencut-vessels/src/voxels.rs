@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::sampling::Grid;
+use lumencut_core::polarity::Polarity;
 use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
 
@@ -20,7 +21,8 @@ pub(crate) trait VoxelSource: Sync {
     fn goes_below(&self, limit: f32, every: usize) -> bool;
 }
 
-/// A volume with the transforms between voxel index and world space.
+/// The values of a volume as they are traced, those of dark lumens negated, with the transforms between voxel index and world
+/// space.
 pub struct Voxels<'a> {
     source: Box<dyn VoxelSource + 'a>,
     /// Number of voxels along (i, j, k).
@@ -34,6 +36,8 @@ pub struct Voxels<'a> {
     /// Unit of sampling distances (mm): the smallest voxel side, but at least a quarter of the middle one.
     /// Otherwise very uneven voxel sides would multiply the number of samples.
     pub sampling_side: f64,
+    /// Whether the lumen is bright or dark in the volume; see [`Polarity::turned`].
+    pub polarity: Polarity,
     negative: OnceLock<bool>,
 }
 
@@ -58,6 +62,8 @@ impl<'a> Voxels<'a> {
     pub fn new(volume: &Volume<'a>) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
         let source: Box<dyn VoxelSource + 'a> = with_voxels!(volume.voxels(), voxels => Box::new(Typed { voxels, grid: Grid::new(volume), size, strides }));
+        let polarity = volume.polarity();
+        let source = if polarity == Polarity::Dark { Box::new(Negated(source)) } else { source };
         Self {
             source,
             size,
@@ -67,6 +73,7 @@ impl<'a> Voxels<'a> {
             sampling_side: volume
                 .smallest_side()
                 .max(LEAST_OF_MIDDLE * middle_side(volume.world_from_index())),
+            polarity,
             negative: OnceLock::new(),
         }
     }
@@ -86,6 +93,11 @@ impl<'a> Voxels<'a> {
         self.source.at(self.index_from_world.transform_point3(place))
     }
 
+    /// As [`Voxels::at`], but as the volume has the value, also where lumen is dark.
+    pub fn shown_at(&self, place: DVec3) -> f64 {
+        self.polarity.turned(f64::from(self.at(place)))
+    }
+
     /// Value of a voxel inside the volume.
     pub fn voxel(&self, voxel: [i32; 3]) -> f32 {
         self.source.voxel(voxel)
@@ -101,10 +113,13 @@ impl<'a> Voxels<'a> {
         self.source.along(start, stride, values);
     }
 
-    /// Whether the volume has values as negative as those of fat and air in HU; only some rows are read.
+    /// Whether the volume has values as negative as those of fat and air in HU; only some rows are read. Never for dark lumens.
     pub(crate) fn has_negative(&self) -> bool {
         let voxels: usize = self.size.iter().product();
-        *self.negative.get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
+        self.polarity == Polarity::Bright
+            && *self
+                .negative
+                .get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
     }
 
     /// The voxel nearest to a world position; None outside the volume.
@@ -148,6 +163,41 @@ impl<'a> Voxels<'a> {
             }
         }
         found
+    }
+}
+
+/// Negated values. Interpolation and negation commute to the bit.
+struct Negated<'a>(Box<dyn VoxelSource + 'a>);
+
+impl Negated<'_> {
+    fn negate(values: &mut [f32]) {
+        // Unlike `-value`, this has no negative zero.
+        values.iter_mut().for_each(|value| *value = 0.0 - *value);
+    }
+}
+
+impl VoxelSource for Negated<'_> {
+    fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
+        self.0.cube(first, side, values);
+        Self::negate(values);
+    }
+
+    fn at(&self, index: DVec3) -> f32 {
+        0.0 - self.0.at(index)
+    }
+
+    fn voxel(&self, voxel: [i32; 3]) -> f32 {
+        0.0 - self.0.voxel(voxel)
+    }
+
+    fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
+        let first = values.len();
+        self.0.along(start, stride, values);
+        Self::negate(&mut values[first..]);
+    }
+
+    fn goes_below(&self, limit: f32, every: usize) -> bool {
+        self.0.goes_below(limit, every)
     }
 }
 

@@ -1,5 +1,6 @@
 //! All tests of tracing and measuring from outside, in one program.
 
+mod dark_lumens;
 mod errors;
 mod find_from_seed;
 mod find_one_vessel;

@@ -131,7 +131,7 @@ fn the_source_of_the_wall_is_that_of_the_request_and_the_unit() {
     assert_eq!(of(&ARTERY, given).wall_source, WallSource::Given([30.0, 10.0]));
     assert_eq!(of(&ARTERY, WallRequest::Off).wall_source, WallSource::NotAsked);
     let dark = Artery { unit: [-1.0, 300.0], ..ARTERY };
-    let profile = of(&dark, WallRequest::Level([100.0, 30.0]));
+    let profile = of(&dark, WallRequest::Automatic);
     assert_eq!(profile.wall_source, WallSource::DarkLumen);
     assert!(profile.wall.iter().all(|wall| wall[0].is_nan()));
     let other = Artery { unit: [0.5, 500.0], ..ARTERY };

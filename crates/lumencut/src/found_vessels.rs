@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
+use lumencut_vessels::kind::{Kind, Words};
 use lumencut_vessels::trace::clicks::doubts::{Doubt, Doubted};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::from_seed::find_from;
@@ -86,7 +87,7 @@ pub(crate) fn one_vessel(
         return Err(refusals::outside(click));
     }
     let side = voxels.mean_side();
-    let refused = |reason| refusals::no_whole_vessel(click, f64::from(voxels.at(click)), reason);
+    let refused = |reason| refusals::no_whole_vessel((click, voxels.shown_at(click)), trees.kind, reason);
     one_vessel::one_vessel(trees, click, side, beside).map_err(refused)
 }
 
@@ -96,23 +97,28 @@ fn found_in(volume: &Volume, trees: Trees) -> FoundTree {
 }
 
 fn found(trees: Trees, doubts_of: &(dyn Fn(&Centerline) -> Vec<Doubt> + Sync)) -> FoundTree {
-    let Trees { vessels, level, contrast, other, is_hounsfield, .. } = trees;
+    let Trees { vessels, level, contrast, other, kind, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
     let line = |FoundVessel { line, part, doubt, .. }: FoundVessel| {
         let places = if doubt.is_none() { doubts_of(&line) } else { Vec::new() };
-        FoundLine { line, doubt: doubt.map(|doubt| doubt.words(is_hounsfield)), places, part }
+        FoundLine { line, doubt: doubt.map(|doubt| doubt.words(kind)), places, part }
     };
     let vessels: Vec<FoundLine> = sure.into_par_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
     let mut notes = vec![format!(
-        "the lumen of the vessels has about {level}; its contrast to the surroundings is {contrast}"
+        "the lumen of the {} has about {level}; its contrast to the surroundings is {contrast}",
+        kind.words().several
     )];
     notes.extend(other.map(|reading| {
         let [level, contrast] = reading.map(about);
-        format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
+        let (side, paler) = match kind {
+            Kind::CtVessels | Kind::Vessels => ("above", "paler ones may be organs"),
+            Kind::Airways | Kind::DarkLumens => ("below", "brighter ones may be tissue"),
+        };
+        format!("other tubes have about {level}, {contrast} {side} theirs: the {paler}")
     }));
-    let doubts = doubts(&vessels);
+    let doubts = doubts(&vessels, kind.words());
     FoundTree { vessels, notes, doubts }
 }
 
@@ -120,7 +126,7 @@ fn about(value: f64) -> String {
     if value.abs() < 100.0 { rounded(value, 2) } else { fixed(value, 0) }
 }
 
-fn doubts(vessels: &[FoundLine]) -> Vec<String> {
+fn doubts(vessels: &[FoundLine], words: &Words) -> Vec<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for doubt in vessels.iter().filter_map(|vessel| vessel.doubt) {
         *counts.entry(doubt).or_default() += 1;
@@ -128,7 +134,7 @@ fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     let mut counts: Vec<(&str, usize)> = counts.into_iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let sentence = |(doubt, count): (&str, usize)| {
-        format!("{count} vessel{} doubtful: {doubt}", if count == 1 { "" } else { "s" })
+        format!("{count} {} doubtful: {doubt}", if count == 1 { words.one } else { words.several })
     };
     counts.into_iter().map(sentence).collect()
 }
@@ -158,7 +164,8 @@ mod tests {
 
     #[test]
     fn a_found_vessel_has_the_doubts_of_a_traced_one() {
-        let doubt = Doubt { words: "Doubtful from 3 mm on.".to_owned(), at: Some(3.0) };
+        let doubt =
+            Doubt { words: "Doubtful from 3 mm on.".to_owned(), kind: "turns too tightly", at: Some(3.0) };
         let vessels = vec![vessel(0, None), vessel(0, Some(TrackDoubt::Short))];
         let tree = found(Trees { vessels, ..Trees::default() }, &|_| vec![doubt.clone()]);
         assert_eq!(tree.vessels[0].doubts_of("Vessel 1"), ["Vessel 1: Doubtful from 3 mm on."]);
@@ -175,8 +182,8 @@ mod tests {
         assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
         let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
-        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words(false));
-        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words(false));
+        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words(Kind::Vessels));
+        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words(Kind::Vessels));
         assert_eq!(
             tree.notes,
             ["the lumen of the vessels has about 330; its contrast to the surroundings is 322"]

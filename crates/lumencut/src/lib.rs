@@ -17,6 +17,7 @@ pub mod devices;
 pub mod doubted_scan;
 mod doubted_unit;
 pub mod drags;
+pub mod endoscopy;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod file_kinds;
@@ -78,10 +79,10 @@ pub mod windows;
 mod wireframe;
 
 pub use lumencut_core::{
-    camera, error, frame, geometry, limits, math, named, pipeline, progress, reformations, scene, settings,
-    stages, stop, vessel_tree, volume, with_voxels,
+    camera, error, frame, geometry, limits, math, named, pipeline, polarity, progress, reformations, scene,
+    settings, stages, stop, vessel_tree, volume, with_voxels,
 };
 #[cfg(target_arch = "wasm32")]
 pub use lumencut_gpu::screen;
 pub use lumencut_io as centerlines;
-pub use lumencut_vessels::{measure, trace, voxels};
+pub use lumencut_vessels::{kind, measure, trace, voxels};

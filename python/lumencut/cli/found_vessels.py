@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from lumencut.scene.polarity import Polarity
     from lumencut.scene.vessel_tree import VesselTree
     from lumencut.scene.volume import Volume
 
@@ -23,6 +24,19 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 #: Options of `found_options` that have no effect without a seed or `--find`.
 WITH_FOUND = ("smallest_radius", "doubtful")
+
+
+#: Chooses lumens that are darker than the tissue around them.
+dark_option = click.option(
+    "--dark",
+    is_flag=True,
+    help="Trace lumens that are darker than the tissue around them, such as airways and bile ducts.",
+)
+
+
+def polarity_of(chosen: dict[str, Any]) -> Polarity:
+    """Return the polarity that --dark chooses."""
+    return "dark" if chosen["dark"] else "bright"
 
 
 def found_options(command: _Command) -> _Command:
@@ -49,6 +63,7 @@ def found_options(command: _Command) -> _Command:
             is_flag=True,
             help="Keep the uncertain vessels of --seed and --find; they are counted in any case.",
         ),
+        dark_option,
     )
     return added(parts, command)
 
@@ -61,8 +76,8 @@ def found_by(chosen: dict[str, Any]) -> str | None:
     return "--seed" if has_seed else None
 
 
-def check_found(chosen: dict[str, Any]) -> None:
-    """Reject options for finding vessels that contradict each other or have no effect."""
+def check_found(chosen: dict[str, Any], alone: tuple[str, ...] = WITH_FOUND) -> None:
+    """Reject options for finding vessels that contradict each other or, for ``alone``, have no effect."""
     seeds = [name for name in ("seed", "seed_index") if chosen[name] is not None]
     given = [f"--{name.replace('_', '-')}" for name in seeds] + ["--find"] * chosen["find"]
     if len(given) > 1:
@@ -70,7 +85,7 @@ def check_found(chosen: dict[str, Any]) -> None:
     if chosen.get("all_parts") and not chosen["find"]:
         raise click.UsageError("--all-parts without --find does nothing; leave out --all-parts")
     if not given:
-        for name in WITH_FOUND:
+        for name in alone:
             if chosen[name]:
                 option = f"--{name.replace('_', '-')}"
                 raise click.UsageError(f"{option} without --seed or --find does nothing; leave out {option}")
@@ -96,7 +111,7 @@ def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
         return tree
     length = sum(vessel.length for vessel in tree.doubtful)
     kept = "kept" if chosen["doubtful"] else "left out; --doubtful keeps them"
-    doubtful = f"{len(tree.doubtful)} vessels of {length:.0f} mm"
+    doubtful = f"{len(tree.doubtful)} {_several(chosen)} of {length:.0f} mm"
     say(f"doubtful: {doubtful}, in addition to {len(tree)} certain ones; {kept}")
     return VesselTree([*tree, *tree.doubtful]) if chosen["doubtful"] else tree
 
@@ -106,18 +121,28 @@ def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     from lumencut.tracing.seed_tracing import trace_from
     from lumencut.tracing.vessel_finding import find_vessels
 
-    smallest = chosen["smallest_radius"]
-    with bar("finding vessels", "share") as progress:
+    smallest, polarity = chosen["smallest_radius"], polarity_of(chosen)
+    with bar(f"finding {_several(chosen)}", "share") as progress:
         if chosen["find"]:
-            tree = find_vessels(voxels, smallest_radius=smallest, progress=progress)
+            tree = find_vessels(voxels, smallest_radius=smallest, polarity=polarity, progress=progress)
         else:
-            tree = trace_from(voxels, _place(chosen, voxels), smallest_radius=smallest, progress=progress)
+            tree = trace_from(
+                voxels,
+                _place(chosen, voxels),
+                smallest_radius=smallest,
+                polarity=polarity,
+                progress=progress,
+            )
     for note in tree.notes:
         say(note)
     for number, part in enumerate(tree.parts):
         length = sum(tree[vessel].length for vessel in part)
-        detail(f"part {number}: {len(part)} vessels of {length:.0f} mm")
+        detail(f"part {number}: {len(part)} {_several(chosen)} of {length:.0f} mm")
     return tree
+
+
+def _several(chosen: dict[str, Any]) -> str:
+    return "dark lumens" if chosen["dark"] else "vessels"
 
 
 def _place(chosen: dict[str, Any], voxels: Volume) -> npt.NDArray[np.float64]:

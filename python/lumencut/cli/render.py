@@ -10,7 +10,7 @@ import click
 
 from lumencut.cli import options
 from lumencut.cli.dicom import check_objects, dicom_options, is_object, object_options
-from lumencut.cli.found_vessels import check_found, found_options
+from lumencut.cli.found_vessels import WITH_FOUND, check_found, found_options
 from lumencut.cli.labels import check_labels, label_options, labels_of
 from lumencut.cli.like import (
     beside_session,
@@ -113,7 +113,7 @@ def render(
     views = views_of(chosen, recipe) if hanging is None else _hanging(hanging, chosen)
     planned = pictures([view for view, _ in views], output)
     files = scene_from(chosen)
-    check_found(chosen)
+    check_found(chosen, (*WITH_FOUND, "dark"))
     if chosen["ras"] and chosen["seed"] is None:
         raise click.UsageError("--ras without --seed does nothing; leave out --ras")
     check_scene(files, chosen, settings)

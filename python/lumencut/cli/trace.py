@@ -9,7 +9,7 @@ import click
 
 from lumencut._lumencut import WRITTEN_CENTERLINES
 from lumencut.cli import options
-from lumencut.cli.found_vessels import check_found, found_by, found_options, found_vessels
+from lumencut.cli.found_vessels import check_found, found_by, found_options, found_vessels, polarity_of
 from lumencut.cli.mistakes import check_reading
 from lumencut.cli.options import FILE
 from lumencut.cli.parameters import VECTOR
@@ -107,6 +107,7 @@ def trace(
     lumencut trace ct.nii.gz --point 12,-30,85 --point 8,-41,-20 -o aorta.vtp --preview aorta.png
     lumencut trace ct.nii.gz --find -o all.vtp --preview all.png
     lumencut trace ct.nii.gz --seed 12,-30,85 -o tree.vtp --preview tree.png
+    lumencut trace chest.nii.gz --dark --seed 2,-160,760 -o airways.vtp --preview airways.png
     lumencut trace --mask total.nii.gz --label 52=aorta --label 65 -o lines.vtp
     lumencut trace dicom/ --points vessels.mrk.json --stopper 20,-35,40 -o lines.vtp
     """  # noqa: D301 - click needs the control character itself
@@ -125,9 +126,10 @@ def trace(
     for vessel in tree:
         detail(f"{vessel!r}{_mean('radius', vessel.radius, ' mm')}{_mean('confidence', vessel.confidence)}")
     say(f"{output}: {tree!r}, {sum(vessel.length for vessel in tree):.1f} mm")
-    _say_suggested(tree, voxels)
+    if not chosen["dark"]:
+        _say_suggested(tree, voxels)
     if preview is not None and voxels is not None:
-        _render(voxels, tree, preview, device)
+        _render((voxels, tree), preview, device, is_dark=chosen["dark"])
 
 
 def _say_suggested(tree: VesselTree, voxels: Volume | None) -> None:
@@ -159,6 +161,8 @@ def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict
     check_found(chosen)
     if volume is None and not has_mask:
         raise click.UsageError("found no VOLUME; expected one, or --mask")
+    if volume is None and chosen["dark"]:
+        raise click.UsageError("--dark without VOLUME does nothing: a mask has no values; leave out --dark")
     if volume is None and preview is not None:
         raise click.UsageError("--preview needs VOLUME: a mask has no picture")
     found = found_by(chosen)
@@ -212,6 +216,7 @@ def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTr
             _in_lps(chosen["stopper"], chosen),
             stopper_radius=chosen["stopper_radius"],
             bridge=bridge,
+            polarity=polarity_of(chosen),
             names=names,
             progress=progress,
         )
@@ -253,10 +258,16 @@ def _mean(name: str, numbers: Points | None, unit: str = "") -> str:
     return "" if numbers is None else f", {name} {float(numbers.mean()):.2f}{unit}"
 
 
-def _render(voxels: Volume, tree: VesselTree, path: Path, device: Literal["auto", "cpu", "gpu"]) -> None:
+def _render(
+    scene: tuple[Volume, VesselTree], path: Path, device: Literal["auto", "cpu", "gpu"], *, is_dark: bool
+) -> None:
     from lumencut.pictures.renderer import Renderer
+    from lumencut.scene.focus import Focus
+    from lumencut.scene.settings import Settings
 
+    # Around dark lumens, the smallest values show where they run on.
+    settings = Settings(focus=Focus(), context="minip") if is_dark else None
     with bar("rendering", "share") as progress:
-        frame = Renderer(voxels, tree, device).render(progress=progress)
+        frame = Renderer(*scene, device).render(settings=settings, progress=progress)
     frame.save(path)
     say(str(path))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from lumencut.cli.found_vessels import polarity_of
 from lumencut.cli.options import FILE, added
 from lumencut.cli.report import bar, busy, detail, say, warn
 from lumencut.errors import SettingsError
@@ -88,6 +89,7 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
             labels=labels,
             shortest_branch=chosen["shortest_branch"],
             bridge=chosen["bridge_gaps"],
+            polarity=polarity_of(chosen),
             progress=progress,
         )
     _report(tree)

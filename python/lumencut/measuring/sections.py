@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.base.checks import callback, number, numbers
+from lumencut.base.checks import callback, choice, number, numbers
 from lumencut.base.pickles import by_name
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.measuring.profile import Profile
 from lumencut.scene.images import as_volume
 from lumencut.scene.line_doubts import check_lines_once
+from lumencut.scene.polarity import POLARITIES
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
@@ -36,6 +37,7 @@ def measure(
     *,
     tree: VesselTree | None = None,
     wall: Wall = None,
+    polarity: Literal["auto", "bright", "dark"] = "auto",
     progress: Progress | None = None,
 ) -> Profile:
     """Measure the lumen of a vessel in sections across it.
@@ -70,9 +72,11 @@ def measure(
     wall : pair of float or "off", optional
         Level of the vessel's wall and its standard deviation, in the unit of the volume. Default: 45 ± 25 HU,
         or 150 ± 40 HU (plaque) where this fits better, if the values are HU (some are below -20) and the
-        lumen is bright. Otherwise, and with "off", walls
-        count as surroundings; an artery in fat is then measured too wide, because part of its wall counts as
-        lumen. :attr:`Profile.wall_source` states which.
+        lumen is bright or air. Otherwise, and with "off", walls count as surroundings; an artery in fat is
+        then measured too wide, because part of its wall counts as lumen. :attr:`Profile.wall_source` states
+        which.
+    polarity : {"auto", "bright", "dark"}, default "auto"
+        Refuse a lumen that is not brighter (or darker) than its surroundings; "auto" measures both.
     progress : callable, optional
         Called at intervals with the work done and the total work.
 
@@ -84,9 +88,10 @@ def measure(
     Raises
     ------
     MeasuringError
-        For a vessel outside the volume, or without a lumen around it.
+        For a vessel outside the volume, or without a lumen of this polarity around it.
     SettingsError
-        For an invalid step or width of the point spread, and for a step that makes more than 20,000 sections.
+        For an invalid step, polarity or width of the point spread, and for a step that makes more than 20,000
+        sections.
     VesselTreeError
         For another kind of vessel or tree, or a vessel without length.
     VolumeError
@@ -102,10 +107,14 @@ def measure(
     given = None if fwhm is None else number(SettingsError, "fwhm", fwhm)
     others = None if tree is None else [(one.points, one.radius) for one in tree]
     level = wall_level(wall)
+    choice(SettingsError, "polarity", polarity, ("auto", *POLARITIES))
     callback(MeasuringError, "progress", progress)
     estimates = None if others is None else _tree_estimates(grid, tree, others, along, given, level)
     measured = (vessel.points, vessel.radius)
     core = _lumencut.measure(grid, measured, along, given, others, level, estimates, progress)
+    if polarity not in ("auto", core.polarity):
+        found = f"a lumen that is {'darker' if core.polarity == 'dark' else 'brighter'} than its surroundings"
+        raise MeasuringError("lumen of the vessel", found, f'a {polarity} one, or polarity="auto"')
     return Profile(core, vessel, whole._origin)
 
 

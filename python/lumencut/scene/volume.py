@@ -64,6 +64,8 @@ class Volume(KeepsReadOnly):
     _is_segmentation = False
     _label_names: Mapping[int, str] = MappingProxyType({})
     _study: Study | None = None
+    #: Whether the lumen that is traced is bright or dark; see `traced_volume`.
+    _polarity = "bright"
     #: The patient, from the DICOM header.
     _patient = Patient()
 

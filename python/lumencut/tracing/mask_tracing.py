@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from lumencut import _lumencut
-from lumencut.base.checks import callback, integers, number
+from lumencut.base.checks import callback, choice, integers, number
 from lumencut.errors import SettingsError, StudyWarning, TracingError
 from lumencut.files.mask_grid import other_patient, place_within, placed
 from lumencut.scene.images import as_volume
+from lumencut.scene.polarity import POLARITIES, Polarity, traced_volume
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_gap import Gap
 from lumencut.scene.vessel_tree import VesselTree
@@ -30,6 +31,7 @@ def trace_mask(
     labels: Mapping[int, str] | Iterable[int] | None = None,
     shortest_branch: float = 2.0,
     bridge: float = 0.0,
+    polarity: Polarity = "bright",
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
     """Trace the centerlines of a mask of the lumen, or of labels of a label map.
@@ -54,8 +56,8 @@ def trace_mask(
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
         Integers; 0 is background.
     volume : Volume or such an image, optional
-        The angiography of the mask, with lumen brighter than the tissue around it. The voxels of the mask
-        must be voxels of it, to a tenth of a voxel: all or a part, in any order and direction of the axes.
+        The scan of the mask, such as an angiography. The voxels of the mask must be voxels of it, to a tenth
+        of a voxel: all or a part, in any order and direction of the axes.
     labels : mapping of int to str, or iterable of int, optional
         Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
         every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values, or as
@@ -67,6 +69,8 @@ def trace_mask(
     bridge : float, default 0
         The widest gap (mm) between pieces that a straight vessel bridges, whose points are all marked as
         :attr:`Vessel.bridged`. Gaps are listed in :attr:`VesselTree.gaps` whether or not they are bridged.
+    polarity : {"bright", "dark"}, default "bright"
+        Whether lumen is brighter in the volume than the tissue around it, or darker, as in airways.
     progress : callable, optional
         Called at intervals with the work done and the total work.
 
@@ -83,14 +87,15 @@ def trace_mask(
         slice, is nowhere longer than wide, has voxels that are not voxels of the volume, or lies in another
         frame of reference.
     SettingsError
-        For labels, a shortest branch or a bridge of another kind.
+        For labels, a shortest branch, a bridge or a polarity of another kind.
     KeyboardInterrupt
         After Ctrl-C.
     """
     callback(TracingError, "progress", progress)
     grid = as_volume(mask)
     names = _names(labels)
-    shown = None if volume is None else as_volume(volume)
+    choice(SettingsError, "polarity", polarity, POLARITIES)
+    shown = None if volume is None else traced_volume(as_volume(volume), polarity)
     if shown is not None and (words := other_patient(grid._patient, shown._patient)):
         warnings.warn(StudyWarning(words), stacklevel=2)
     notes: list[str] = []

@@ -11,6 +11,7 @@ from lumencut import _lumencut
 from lumencut.base.checks import callback, numbers
 from lumencut.errors import TracingError
 from lumencut.scene.images import as_volume
+from lumencut.scene.polarity import Polarity, traced_volume
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
 from lumencut.tracing.vessel_finding import checked_radius, found_tree
@@ -21,6 +22,7 @@ def trace_from(
     seed: npt.ArrayLike,
     *,
     smallest_radius: float | None = None,
+    polarity: Polarity = "bright",
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
     """Find all vessels connected to the vessel that contains a point.
@@ -33,12 +35,14 @@ def trace_from(
     Parameters
     ----------
     volume : Volume, or anything :func:`lumencut.render` takes as one
-        The angiography; lumen must be brighter than the tissue around it.
+        The scan, such as an angiography.
     seed : array_like, shape (3,)
         A point in a vessel (mm, LPS). It need not be central.
     smallest_radius : float, optional
         Vessels end about where they become narrower than this (mm); default: 1 mm, or 1.3 voxel sides if that
         is less. Vessels less than about two voxels wide are not found.
+    polarity : {"bright", "dark"}, default "bright"
+        Whether lumen is brighter than the tissue around it, or darker, as in airways and bile ducts.
     progress : callable, optional
         Called at intervals with the work done and the total work.
 
@@ -57,11 +61,12 @@ def trace_from(
         For a seed outside the volume, one in no vessel (the error says how far the nearest one is), and one
         whose part has only uncertain vessels.
     SettingsError
-        For a smallest radius below 0.
+        For a smallest radius below 0, or another polarity.
     VolumeError
         For anything that is not a volume.
     """
     place = numbers(TracingError, "seed", seed, (3,))
     smallest = checked_radius(smallest_radius)
     callback(TracingError, "progress", progress)
-    return found_tree(*_lumencut.trace_from(as_volume(volume), tuple(place.tolist()), smallest, progress))
+    traced = traced_volume(as_volume(volume), polarity)
+    return found_tree(*_lumencut.trace_from(traced, tuple(place.tolist()), smallest, progress))

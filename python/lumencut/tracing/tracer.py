@@ -16,6 +16,7 @@ from lumencut.base.checks import callback, flag, number, numbers
 from lumencut.base.wording import counted
 from lumencut.errors import TracingError
 from lumencut.scene.images import as_volume
+from lumencut.scene.polarity import Polarity, traced_volume
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
@@ -32,6 +33,7 @@ def trace(
     *,
     stopper_radius: float = 3.0,
     bridge: bool = False,
+    polarity: Polarity = "bright",
     names: Sequence[str | None] | None = None,
     progress: Progress | None = None,
 ) -> VesselTree:
@@ -46,7 +48,7 @@ def trace(
     Parameters
     ----------
     volume : Volume, or anything :func:`lumencut.render` takes as one
-        The angiography; lumen must be brighter than the tissue around it.
+        The scan, such as an angiography.
     points : array_like, shape (n, 3), or a sequence of several such
         Two or more points in order along one vessel (mm, LPS), or a list of them for each of several vessels.
         A later vessel that begins or ends within an earlier one is joined to it: its end is exactly a point
@@ -59,6 +61,8 @@ def trace(
         Whether vessels may continue where no lumen is visible, as in an occlusion. Without it a stretch of
         more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not continue in the same
         direction.
+    polarity : {"bright", "dark"}, default "bright"
+        Whether lumen is brighter than the tissue around it, or darker, as in airways and bile ducts.
     names : sequence of str or None, optional
         The names of the vessels.
     progress : callable, optional
@@ -75,13 +79,15 @@ def trace(
     TracingError
         For points outside the volume or not in lumen, equal points, and points between which there is no
         lumen: the error names the weakest place, what the volume has there, and what was expected.
+    SettingsError
+        For another polarity.
     VolumeError
         For anything that is not a volume.
     """
     lists = _lists(points)
 
     def route(part: Volume) -> VesselTree:
-        tracer = Tracer(part, bridge=bridge)
+        tracer = Tracer(part, bridge=bridge, polarity=polarity)
         for vessel, listed in enumerate(lists):
             if len(listed) < 2:
                 found = counted(len(listed), "point")
@@ -108,18 +114,20 @@ class Tracer:
     Parameters
     ----------
     volume : Volume, or anything :func:`lumencut.render` takes as one
-        The angiography. Its voxels must not change as long as the tracer is used.
-    bridge : bool, default False
+        The scan. Its voxels must not change as long as the tracer is used.
+    bridge, polarity
         As for :func:`trace`.
 
     Raises
     ------
+    SettingsError
+        For another polarity.
     VolumeError
         For anything that is not a volume.
     """
 
-    def __init__(self, volume: Volume | Any, *, bridge: bool = False) -> None:
-        self._volume = as_volume(volume)
+    def __init__(self, volume: Volume | Any, *, bridge: bool = False, polarity: Polarity = "bright") -> None:
+        self._volume = traced_volume(as_volume(volume), polarity)
         self._bridge = flag(TracingError, "bridge", bridge)
         self._kept = _lumencut.Tracer()
         self._vessels: list[list[_Points]] = []

@@ -12,6 +12,7 @@ from lumencut import _lumencut
 from lumencut.base.checks import callback, number
 from lumencut.errors import SettingsError, TracingError
 from lumencut.scene.images import as_volume
+from lumencut.scene.polarity import Polarity, traced_volume
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
@@ -23,23 +24,25 @@ def find_vessels(
     volume: Volume | Any,
     *,
     smallest_radius: float | None = None,
+    polarity: Polarity = "bright",
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
     """Find all vessels of an angiography, with no point given.
 
-    Tubes brighter than their surroundings are found at all widths and followed along their middle,
-    each with its own levels. Those that are bone, organ or noise are left out or marked as doubtful,
+    Tubes brighter (or darker) than their surroundings are found at all widths and followed along their
+    middle, each with its own levels. Those that are bone, organ or noise are left out or marked as doubtful,
     the others are joined where they meet, and connected vessels form a part. The steps are in
     docs/method/tracing.md.
 
     Parameters
     ----------
     volume : Volume, or anything :func:`lumencut.render` takes as one
-        The angiography; lumen must be brighter than the tissue around it. Nothing depends on the unit of its
-        values.
+        The scan, such as an angiography. Nothing depends on the unit of its values.
     smallest_radius : float, optional
         Vessels end about where they become narrower than this (mm); default: 1 mm, or 1.3 voxel sides if that
         is less. Vessels less than about two voxels wide are not found.
+    polarity : {"bright", "dark"}, default "bright"
+        Whether lumen is brighter than the tissue around it, or darker, as in airways and bile ducts.
     progress : callable, optional
         Called at intervals with the work done and the total work.
 
@@ -57,7 +60,7 @@ def find_vessels(
     TracingError
         If no certain vessel is found; it says how many mm a smaller radius finds.
     SettingsError
-        For a smallest radius below 0.
+        For a smallest radius below 0, or another polarity.
     VolumeError
         For anything that is not a volume.
     KeyboardInterrupt
@@ -65,7 +68,7 @@ def find_vessels(
     """
     smallest = checked_radius(smallest_radius)
     callback(TracingError, "progress", progress)
-    return found_tree(*_lumencut.find_vessels(as_volume(volume), smallest, progress))
+    return found_tree(*_lumencut.find_vessels(traced_volume(as_volume(volume), polarity), smallest, progress))
 
 
 def checked_radius(smallest_radius: float | None) -> float | None:

@@ -24,10 +24,10 @@ export function commit(edit: Edit, options: EditOptions = {}): Promise<AfterEdit
   const { mask, then, renamed = (vessel) => vessel, bridging = false } = options;
   const files = mask && { mask };
   const work: Work<AfterEdit> = async (onProgress) => {
-    const ask = ({ vessels, stoppers, bridge, bone_hidden }: Document) =>
+    const ask = ({ vessels, stoppers, bridge, bone_hidden, dark }: Document) =>
       engine.ask(
         'edit',
-        { document: { vessels, stoppers, bridge, bone_hidden }, edit, bridging },
+        { document: { vessels, stoppers, bridge, bone_hidden, dark }, edit, bridging },
         { onProgress, ...files },
       );
     const answer = await latest(ask);
@@ -66,6 +66,7 @@ const isSame = (one: Document, other: Document): boolean =>
   one.vessels === other.vessels &&
   one.stoppers === other.stoppers &&
   one.bridge === other.bridge &&
-  one.bone_hidden === other.bone_hidden;
+  one.bone_hidden === other.bone_hidden &&
+  one.dark === other.dark;
 
 export const isDone = (edit: Promise<unknown>): Promise<boolean> => edit.then((result) => result !== null);

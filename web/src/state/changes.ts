@@ -24,13 +24,14 @@ export function afterEdit(now: Document, { document, without_marks: lost }: Edit
     stoppers === now.stoppers &&
     document.bridge === now.bridge &&
     document.bone_hidden === now.bone_hidden &&
+    document.dark === now.dark &&
     lost.length === 0;
   if (isSame) {
     return now;
   }
   const marks = Object.entries(now.marks).filter(([id]) => !lost.includes(Number(id)));
-  const { bridge, bone_hidden } = document;
-  return { ...now, vessels, stoppers, bridge, bone_hidden, marks: Object.fromEntries(marks) };
+  const { bridge, bone_hidden, dark } = document;
+  return { ...now, vessels, stoppers, bridge, bone_hidden, dark, marks: Object.fromEntries(marks) };
 }
 
 function kept<T>(before: readonly T[], after: readonly T[]): readonly T[] {
@@ -51,7 +52,6 @@ export { PALETTE };
 
 export const DOUBTFUL = '#ffa500';
 
-/** The least used colour, the first of several. */
 export function nextColor(vessels: readonly DocumentVessel[]): string {
   const counts = PALETTE.map(([color]) => vessels.filter((vessel) => vessel.color === color).length);
   return PALETTE[counts.indexOf(Math.min(...counts))]?.[0] ?? '#ffffff';

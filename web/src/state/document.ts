@@ -20,6 +20,7 @@ export const EMPTY: Document = {
   stoppers: [],
   bridge: false,
   bone_hidden: false,
+  dark: false,
   marks: {},
   rulers: [],
   isOneMillimetre: false,

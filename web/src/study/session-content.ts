@@ -61,6 +61,7 @@ export function contentOf(
       view: displayState && viewOf(displayState, sure),
       one_millimetre_assumed: document.isOneMillimetre,
       bone_hidden: document.bone_hidden,
+      dark: document.dark,
       ...(displayState?.compared && { compared: displayState.compared }),
     },
   };
@@ -137,6 +138,7 @@ export function documentOf({ lines, doubtful_lines, session }: SessionContent): 
     rulers: session.rulers,
     isOneMillimetre: session.one_millimetre_assumed ?? false,
     bone_hidden: session.bone_hidden ?? false,
+    dark: session.dark ?? false,
   };
 }
 

@@ -1,6 +1,7 @@
 /** Buttons that switch between the modes Look, Trace, Measure and Report. */
 
 import { toggleLayout } from '../state/actions';
+import { kind } from '../state/kind';
 import { hasVolume, layout } from '../state/store';
 import { isTracing, takeTool } from '../state/tool';
 
@@ -33,7 +34,7 @@ function change(to: Mode): void {
 
 const MODES: readonly (readonly [Mode, string, string, string])[] = [
   ['look', '◉', 'Look', 'Look at the vessels from all sides'],
-  ['trace', '✎', 'Trace', 'Trace vessels by clicks (t)'],
+  ['trace', '✎', 'Trace', ''],
   ['measure', '⟷', 'Measure', 'Measure the picked vessel (m)'],
   ['report', '▤', 'Report', 'Findings on all vessels, to copy and save (e)'],
 ];
@@ -50,7 +51,7 @@ export function ModeButtons() {
           key={name}
           type="button"
           aria-pressed={mode() === name}
-          title={title}
+          title={name === 'trace' ? `Trace ${kind.value.several} by clicks (t)` : title}
           onClick={() => change(name)}
         >
           <span aria-hidden="true">{icon}</span> <span class="words">{words}</span>

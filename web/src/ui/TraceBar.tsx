@@ -9,8 +9,10 @@ import { nameOf, vesselOf } from '../state/changes';
 import { candidate, coming, drawn, isDrawing, only, tracedSummary, whole } from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
+import { findAllTitle, kind } from '../state/kind';
 import { hasVolume, report } from '../state/store';
 import { chosenDoubt, isTracing, type Tool, takeTool, tool } from '../state/tool';
+import { DarkSwitch } from './DarkSwitch';
 import { OpenMore } from './OpenButtons';
 import { TracedSummary } from './TracedSummary';
 
@@ -42,18 +44,19 @@ function Offer() {
   }
   return (
     <div class="trace-bar offer" role="note">
-      <span>No vessels yet: find all, click along one, or open or drop centerlines or a mask.</span>
+      <span>{`No ${kind.value.several} yet: find all, click along one, or open or drop centerlines or a mask.`}</span>
       <button
         type="button"
         disabled={editQueue.isBusy}
-        title="Finds all vessels that are brighter than the surrounding tissue"
+        title={findAllTitle()}
         onClick={() => void findAndList()}
       >
-        Find all vessels
+        Find all {kind.value.several}
       </button>
       <button type="button" onClick={() => performAny('trace')}>
-        Trace one vessel
+        Trace one {kind.value.one}
       </button>
+      <DarkSwitch />
       <OpenMore words="I have centerlines" />
       <button
         type="button"
@@ -69,7 +72,7 @@ function Offer() {
 }
 
 const WHOLE =
-  'Traces the clicked vessel to its end, starting where it leaves a vessel of the list (key w). The first use searches the whole scan.';
+  'Traces what was clicked to its end, starting where it leaves a line of the list (key w). The first use searches the whole scan.';
 
 function Hint() {
   const take = (wanted: Tool) => () => takeTool(wanted);
@@ -86,12 +89,12 @@ function Hint() {
       )}
       {only.value && (
         <button type="button" title={WHOLE} onClick={() => takeWhole()}>
-          Whole vessel
+          Whole {kind.value.one}
         </button>
       )}
       {isDrawing.value && !candidate.value && tool.value === 'trace' && (
         <button type="button" onClick={endVessel}>
-          End this vessel
+          End this {kind.value.one}
         </button>
       )}
       {tool.value !== 'seed' && (
@@ -103,6 +106,7 @@ function Hint() {
           {tool.value === 'trace' ? 'Stopper' : 'Trace'}
         </button>
       )}
+      <DarkSwitch />
       <button type="button" onClick={take('look')}>
         Done
       </button>
@@ -112,25 +116,28 @@ function Hint() {
 
 function hintWords(): string {
   if (editQueue.isBusy) {
-    return editQueue.isSearching ? 'Searching for vessels …' : 'Tracing …';
+    return editQueue.isSearching ? `Searching for ${kind.value.several} …` : 'Tracing …';
   }
   if (candidate.value) {
-    return 'The marker is at the brightest point under the pointer. If the slices show your vessel there, click here again; otherwise click the vessel in a slice.';
+    const { one, brightest } = kind.value;
+    return `The marker is at the ${brightest} point under the pointer. If the slices show your ${one} there, click here again; otherwise click the ${one} in a slice.`;
   }
   if (tool.value === 'seed') {
     return 'Click where the tree begins, or press Enter at the cross-hair, to find all branches from there.';
   }
   if (tool.value === 'stopper') {
-    return 'Click where no vessel may pass, or press Enter to choose the position of the cross-hair.';
+    return 'Click where no line may pass, or press Enter to choose the position of the cross-hair.';
   }
   if (drawn.value) {
-    return `Add a point further along ${nameOf(drawn.value)}: click, or press Enter at the cross-hair. A double click ends the vessel.`;
+    return `Add a point further along ${nameOf(drawn.value)}: click, or press Enter at the cross-hair. A double click ends the ${kind.value.one}.`;
   }
   const taken = whole.value ? `: ${whole.value.words}` : '';
   return isDrawing.value
-    ? `Press Enter or double-click to trace the whole vessel${taken}. Or add a point further along it.`
-    : 'Click where a vessel begins, or press Enter to choose the position of the cross-hair.';
+    ? `Press Enter or double-click to trace the whole ${kind.value.one}${taken}. Or add a point further along it.`
+    : `Click where ${an(kind.value.one)} begins, or press Enter to choose the position of the cross-hair.`;
 }
+
+const an = (one: string): string => `${one.startsWith('a') ? 'an' : 'a'} ${one}`;
 
 /** Shows a doubtful branch. After the user accepts it or leaves it out, the next one is shown. */
 function Doubt({ words }: { readonly words: string }) {

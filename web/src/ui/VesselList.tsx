@@ -1,5 +1,3 @@
-/** The vessel list, with buttons for all vessels. */
-
 import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { findVessels } from '../edit/branches';
 import { STOPPER, setBridge } from '../edit/clicks';
@@ -8,10 +6,12 @@ import { namesToOffer, remove } from '../edit/vessels';
 import { attempt, hasCenterlines, saveCenterlines } from '../output/save-actions';
 import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
+import { findAllTitle, kind } from '../state/kind';
 import { hasMillimetres } from '../state/millimetres';
 import { isListOpen, toggleList } from '../state/panels';
 import { chooseTree, isTreeShown, listedVessels } from '../state/tidying';
 import { isTracing, toggleTool } from '../state/tool';
+import { DarkSwitch } from './DarkSwitch';
 import { DoubtfulPart } from './DoubtfulPart';
 import { OpenMore } from './OpenButtons';
 import { TidyPart } from './TidyPart';
@@ -30,7 +30,7 @@ export function VesselList() {
       <DoubtfulPart vessels={doubtful(document_.value)} />
       <TidyPart />
       <VeinsPart />
-      {document_.value.vessels.length === 0 ? <p class="notice">No vessels yet.</p> : null}
+      {document_.value.vessels.length === 0 ? <p class="notice">No {kind.value.several} yet.</p> : null}
       {vessels.length > 1 && <TreeChoice />}
       <ul class="vessel-rows">
         {listedVessels.value.map(({ vessel, depth }) => (
@@ -83,12 +83,8 @@ function Closing() {
 function AddButtons() {
   return (
     <div class="buttons">
-      <button
-        type="button"
-        title="Finds all vessels that are brighter than the surrounding tissue"
-        onClick={() => void findVessels()}
-      >
-        Find all vessels
+      <button type="button" title={findAllTitle()} onClick={() => void findVessels()}>
+        Find all {kind.value.several}
       </button>
       <button
         type="button"
@@ -110,6 +106,7 @@ function AddButtons() {
         />
         Bridge gaps without lumen
       </label>
+      <DarkSwitch />
     </div>
   );
 }

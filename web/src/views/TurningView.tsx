@@ -14,6 +14,7 @@ import * as actions from '../state/actions';
 import { everyFrame } from '../state/cine';
 import { placeAnswer } from '../state/cross-hair';
 import { recover } from '../state/device';
+import { isDark } from '../state/kind';
 import { stepLumen } from '../state/lumens';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
@@ -109,13 +110,13 @@ function wantedView(): View | null {
     ? {
         camera,
         method: 'csr',
-        settings: { ...settings, ...PROJECTED, window: settings.context_window ?? store.window_.value },
+        settings: { ...settings, ...projected(), window: settings.context_window ?? store.window_.value },
       }
     : withRim({ camera, method: store.method.value, settings });
 }
 
-/** Maximum intensity projection of the whole scan: a slab of 1000 mm. */
-const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
+/** Maximum intensity projection of the whole scan: a slab of 1000 mm. For dark lumens it is thin, since air is as dark. */
+const projected = (): Settings => ({ slab: isDark.value ? [60, 'min'] : [1000, 'max'], silhouettes: false });
 
 const handedOver = new WeakSet<HTMLCanvasElement>();
 

@@ -30,8 +30,12 @@ pub mod rim;
 #[doc(hidden)]
 pub mod silhouette;
 #[doc(hidden)]
+pub mod steady;
+#[doc(hidden)]
 pub mod surface;
 mod table;
+#[doc(hidden)]
+pub mod wall;
 
 pub use table::{Image, ImageSet, Stage};
 

@@ -16,9 +16,11 @@ mod layouts;
 mod leap;
 mod placed;
 mod silhouette;
+mod steady;
 mod surface;
 mod ties;
 mod volume;
+mod wall;
 
 use std::sync::{Arc, OnceLock};
 

@@ -31,6 +31,7 @@ use crate::measure::section::scale::Scale;
 use crate::measure::uncertainty::Parts;
 use crate::measure::wall::WallSource;
 use crate::measure::wall::tree::VesselWall;
+use lumencut_core::polarity::Polarity;
 
 /// Number of points of a contour; a section without a lumen has none.
 pub const CONTOUR_POINTS: usize = RAYS;
@@ -137,6 +138,14 @@ pub struct Profile {
 }
 
 impl Profile {
+    /// Whether most sections have a lumen that is brighter, or darker, than its surroundings.
+    pub fn polarity(&self) -> Polarity {
+        let count = |is: fn(&f64, &f64) -> bool| {
+            self.levels.iter().filter(|[lumen, around]| is(lumen, around)).count()
+        };
+        if count(f64::lt) > count(f64::gt) { Polarity::Dark } else { Polarity::Bright }
+    }
+
     pub(crate) fn new(
         places: &[SectionPlane],
         sections: &[Section],

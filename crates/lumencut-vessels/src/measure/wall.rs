@@ -4,6 +4,7 @@ pub(crate) mod pool;
 pub mod tree;
 
 use self::tree::PooledWall;
+use crate::kind::AIR;
 use crate::measure::estimation::Level;
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::scale::Scale;
@@ -109,25 +110,39 @@ pub(crate) fn expected(
 ) -> Result<(Option<KnownWall>, WallSource)> {
     match request {
         WallRequest::Off => Ok((None, WallSource::NotAsked)),
-        _ if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
         WallRequest::Level(level) => {
             let wall = in_its_place(voxels, scale, KnownWall::of(level, scale));
+            let wall = KnownWall { is_airway: is_airway(voxels, scale), ..wall };
             if wall.level[0] <= 1.0 - BELOW_LUMEN {
                 return Ok((Some(wall), WallSource::Given(level)));
             }
             let found = format!("{} in a lumen of {:.0}", level[0], scale.value(1.0));
-            let expected = "a level below that of the lumen";
+            let expected = if scale.contrast < 0.0 {
+                "a level above that of the dark lumen"
+            } else {
+                "a level below that of the lumen"
+            };
             Err(Error::new(ErrorKind::Settings, "wall", found, expected))
         }
         WallRequest::Automatic if is_hounsfield(voxels, scale) => {
             Ok((Some(in_its_place(voxels, scale, KnownWall::of(CT_WALL, scale))), WallSource::Hounsfield))
         }
+        WallRequest::Automatic if is_airway(voxels, scale) => {
+            let wall = KnownWall { is_airway: true, ..KnownWall::of(CT_WALL, scale) };
+            Ok((Some(wall), WallSource::Hounsfield))
+        }
+        WallRequest::Automatic if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
         WallRequest::Automatic => Ok((None, WallSource::OtherUnit)),
     }
 }
 
 fn in_its_place(voxels: &Voxels, scale: &Scale, wall: KnownWall) -> KnownWall {
     KnownWall { is_in_lung: scale.outside < LUNG && is_hounsfield(voxels, scale), ..wall }
+}
+
+/// Whether a lumen is that of an airway in CT: air that is darker than its surroundings.
+pub(crate) fn is_airway(voxels: &Voxels, scale: &Scale) -> bool {
+    scale.contrast < 0.0 && AIR.contains(&scale.value(1.0)) && voxels.has_negative()
 }
 
 /// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.

@@ -28,6 +28,7 @@ pub(crate) mod tubes;
 pub(crate) mod vessel_level;
 pub(crate) mod whole_vessels;
 
+use crate::kind::Kind;
 use crate::trace::find::doubtful::{doubted_where_scarce, is_angiography};
 use crate::trace::find::found::{Below, Trees};
 use crate::trace::find::grid::{Grid, VOXELS_PER_RADIUS};
@@ -93,7 +94,8 @@ pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Res
     let Some(tubes::Tubes { scan, other, tracks, shapes }) =
         tubes::tubes(voxels, grid, seed, request.stop, stages)?
     else {
-        return Ok(Trees { smallest_radius, ..Trees::default() });
+        let kind = Kind::of(voxels.polarity, false, 0.0);
+        return Ok(Trees { smallest_radius, kind, ..Trees::default() });
     };
     let tracks = bone::judged(&scan, tracks, &shapes, request.stop)?;
     let is_angiography = is_angiography(&scan, &tracks, &shapes);
@@ -102,7 +104,10 @@ pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Res
     let vessels = whole_vessels::of(&scan, &tracks, &links, smallest_radius, (request.stop, stages))?;
     stages.end();
     let Scan { level, contrast, noise, is_hounsfield, .. } = scan;
-    let is = Trees { is_angiography, is_hounsfield, ..Trees::default() };
+    let level = voxels.polarity.turned(level);
+    let other = other.map(|[level, contrast]| [voxels.polarity.turned(level), contrast]);
+    let kind = Kind::of(voxels.polarity, is_hounsfield, level);
+    let is = Trees { is_angiography, kind, ..Trees::default() };
     Ok(Trees { vessels, level, contrast, other, noise, smallest_radius, ..is })
 }
 

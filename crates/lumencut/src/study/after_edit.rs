@@ -47,6 +47,7 @@ impl Study {
     pub(crate) fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
         let edited = self.edit(message, watch)?;
         let listed = listed(&edited.document);
+        self.trace_dark(edited.document.dark);
         self.hide_bone(edited.document.bone_hidden, &listed, watch)?;
         self.show(&listed)?;
         let known: Vec<usize> = message.document.vessels.iter().map(|vessel| vessel.line).collect();

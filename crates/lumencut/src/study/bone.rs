@@ -2,6 +2,7 @@
 //! cut always read the scan itself.
 
 use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::polarity::Polarity;
 use lumencut_core::scene::VolumeKey;
 use lumencut_vessels::trace::find::bone_voxels::{BoneRequest, bone, for_each_voxel};
 use lumencut_vessels::trace::find::found::Trees;
@@ -22,10 +23,14 @@ impl Study {
     /// Hides or shows bone around the vessels. No voxel of a listed line or of a sure vessel of the scan is hidden.
     pub(crate) fn hide_bone(&mut self, is_hidden: bool, listed: &[ListedLine], watch: Watch) -> Result<()> {
         if is_hidden {
-            if self.content.without_bone.held.is_none() {
-                self.trees(watch)?;
-            }
-            self.leave_bone_out(listed, watch)?;
+            // Bone is told from bright vessels.
+            let dark = self.content.polarity == Polarity::Dark;
+            let is_known = self.content.without_bone.held.is_some();
+            self.trace_dark(dark && is_known);
+            let trees = if is_known { Ok(()) } else { self.trees(watch).map(|_| ()) };
+            let hidden = trees.and_then(|()| self.leave_bone_out(listed, watch));
+            self.trace_dark(dark);
+            hidden?;
         }
         self.content.without_bone.is_shown = is_hidden;
         Ok(())

@@ -1,4 +1,4 @@
-//! Finds the brightest voxel on the ray of a pixel. A click into a projection selects this voxel.
+//! Finds the brightest voxel on the ray of a pixel, or the darkest one where dark lumens are traced. A click into a projection selects this voxel.
 
 use crate::positions::{pixel_from_world, world_from_pixel};
 use crate::windows;
@@ -35,7 +35,9 @@ pub fn brightest_on_ray(
     let place = |n: usize| from + camera.direction() * (near + n as f64 * step);
     let places: Vec<DVec3> = (0..count).map(place).collect();
     let values = windows::sample(volume, &places);
-    let mut best: Option<(DVec3, f32)> = None;
+    let mut best: Option<(DVec3, f64)> = None;
+    let turned = |value: f32| volume.polarity().turned(f64::from(value));
+    let values = values.into_iter().map(turned);
     for (place, value) in places.into_iter().zip(values).filter(|(_, value)| value.is_finite()) {
         if best.is_none_or(|(_, most)| value > most) {
             best = Some((place, value));
@@ -62,6 +64,7 @@ impl Study {
 
     fn brightest_within(&self, view: &View, pixel: [f64; 2], within: [f64; 2]) -> Result<Pick> {
         let volume = self.content.around().ok_or_else(no_volume)?.volume()?;
+        let volume = volume.with_polarity(self.content.polarity);
         let place = brightest_on_ray(&volume, &view.camera, pixel, within)?;
         Ok(self.at(place.to_array()))
     }

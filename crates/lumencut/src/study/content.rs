@@ -6,10 +6,12 @@ use std::sync::{Arc, OnceLock};
 use crate::window_presets::{DataWindow, PresetSource, WINDOW_PRESETS};
 use glam::{DMat4, DVec3};
 use lumencut_core::named::Named;
+use lumencut_core::polarity::Polarity;
 use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
+use lumencut_vessels::kind::Kind;
 use serde::Serialize;
 
 use crate::cut_off_values::note_of;
@@ -18,7 +20,8 @@ use crate::doubted_scan::doubted_grid;
 use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
-use crate::study::held_volume::HeldVolume;
+use crate::study::held_volume::{HeldVolume, no_volume};
+use crate::study::known_names::KnownNames;
 use crate::study::without_bone::WithoutBone;
 use crate::suggested_names::{SuggestedName, suggested_names};
 use crate::value_unit::ValueUnit;
@@ -62,9 +65,12 @@ impl NamedTree {
 #[derive(Debug, Default)]
 pub struct Content {
     pub held: Option<HeldVolume>,
+    /// Whether tracing looks for bright or dark lumens.
+    pub(crate) polarity: Polarity,
     pub(crate) named: Option<NamedTree>,
     pub(crate) can_reorder: bool,
     pub(crate) without_bone: WithoutBone,
+    pub(crate) known_names: KnownNames,
     windows: OnceLock<Option<Windows>>,
 }
 
@@ -101,7 +107,9 @@ pub(crate) struct VolumeReport {
     pub(crate) pixel_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
-    /// Notes for the user on its size and its values.
+    /// Doubt about its size or axes, which concerns every picture.
+    pub(crate) doubt: Option<String>,
+    /// Notes for the user, this doubt included.
     pub(crate) notes: Vec<String>,
 }
 
@@ -169,8 +177,27 @@ impl Content {
         let Some(named) = &self.named else { return HashMap::new() };
         let (lines, vessels) = named.measured_among();
         let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
-        let suggested = suggested_names(&tubes, self.volume().as_ref());
-        lines.iter().copied().zip(suggested).collect()
+        let suggested = self.names_for(&tubes);
+        lines.iter().copied().zip(self.known_names.with(lines, suggested)).collect()
+    }
+
+    /// The suggested names of tubes; none while dark lumens are traced, because the names are those of vessels.
+    pub(crate) fn names_for(&self, tubes: &[(&[DVec3], Option<&[f64]>)]) -> Vec<SuggestedName> {
+        if self.polarity == Polarity::Dark {
+            return tubes.iter().map(|_| SuggestedName::default()).collect();
+        }
+        suggested_names(tubes, self.volume().as_ref())
+    }
+
+    /// The open volume as it is traced.
+    pub(crate) fn traced(&self) -> Result<Volume<'_>> {
+        Ok(self.held.as_ref().ok_or_else(no_volume)?.volume()?.with_polarity(self.polarity))
+    }
+
+    /// What is traced.
+    pub(crate) fn kind(&self) -> Kind {
+        let is_ct = self.windows().ok().flatten().is_some_and(|windows| windows.is_hounsfield);
+        Kind::of_scan(self.polarity, is_ct)
     }
 
     /// The open volume, if it is valid.
@@ -266,6 +293,7 @@ impl Content {
 impl VolumeReport {
     fn of(held: &HeldVolume) -> Result<Self> {
         let volume = held.volume()?;
+        let doubt = doubted_grid(held.size, held.world_from_index);
         Ok(Self {
             size: held.size,
             world_from_index: DMat4::from(held.world_from_index).transpose().to_cols_array_2d(),
@@ -273,7 +301,8 @@ impl VolumeReport {
             smallest_side: volume.smallest_side(),
             pixel_side: pixel_side(volume.smallest_side()),
             scan: held.scan.words(),
-            notes: doubted_grid(held.size, held.world_from_index).into_iter().collect(),
+            notes: doubt.iter().cloned().collect(),
+            doubt,
         })
     }
 }

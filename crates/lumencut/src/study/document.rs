@@ -60,6 +60,9 @@ pub(crate) struct Document {
     /// Whether the context hides bone.
     #[serde(default)]
     pub(crate) bone_hidden: bool,
+    /// Whether tracing looks for lumens that are darker than the tissue around them.
+    #[serde(default)]
+    pub(crate) dark: bool,
 }
 
 impl Document {

@@ -1,5 +1,6 @@
 //! The reasons why a found vessel is doubtful: a phrase, and a short form for lists.
 
+use lumencut_vessels::kind::Kind;
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use serde::Serialize;
 
@@ -12,11 +13,11 @@ pub(crate) struct DoubtRow {
 }
 
 pub(crate) fn doubt_rows() -> Vec<DoubtRow> {
-    let rows = |is_ct: bool| {
-        TrackDoubt::ALL.map(|doubt| DoubtRow { words: doubt.words(is_ct), short: doubt.short(is_ct) })
+    let rows = |kind: Kind| {
+        TrackDoubt::ALL.map(|doubt| DoubtRow { words: doubt.words(kind), short: doubt.short(kind) })
     };
-    let mut all = rows(true).to_vec();
-    for row in rows(false) {
+    let mut all = Vec::new();
+    for row in Kind::ALL.into_iter().flat_map(rows) {
         if !all.contains(&row) {
             all.push(row);
         }
@@ -31,7 +32,7 @@ mod tests {
     #[test]
     fn words_of_other_scans_name_neither_bone_nor_contrast_medium() {
         for doubt in TrackDoubt::ALL {
-            for words in [doubt.words(false), doubt.short(false)] {
+            for words in [doubt.words(Kind::Vessels), doubt.short(Kind::Vessels)] {
                 assert!(
                     !["bone", "marrow", "contrast medium", "agent"].iter().any(|ct| words.contains(ct)),
                     "{words}"

@@ -6,12 +6,15 @@ use crate::study::edits::Edit;
 use crate::study::failure::Failure;
 use crate::study::names::{fresh_name, part_name};
 use crate::study::tracing::StopperMessage;
+use lumencut_vessels::kind::Kind;
 
 const MIN_CLICKS: usize = 2;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     pub(crate) document: Document,
+    /// What is traced, for new names.
+    pub(crate) kind: Kind,
     pub(crate) last_id: u32,
     pub(crate) added: Vec<u32>,
     pub(crate) without_marks: Vec<u32>,
@@ -69,6 +72,14 @@ impl Draft {
         }
     }
 
+    /// Vessels traced before keep their lines, but not the clicks, which no longer lie in such lumen.
+    pub(crate) fn set_dark(&mut self, dark: bool) {
+        if self.document.dark != dark {
+            self.document.dark = dark;
+            self.document.vessels.iter_mut().for_each(|vessel| vessel.clicks = None);
+        }
+    }
+
     pub(crate) fn leave_out(&mut self, ids: &[u32]) {
         let is_doubtful = |id: &&u32| self.document.vessel(**id).is_some_and(|vessel| vessel.doubt.is_some());
         let doubtful: Vec<u32> = ids.iter().filter(is_doubtful).copied().collect();
@@ -77,7 +88,7 @@ impl Draft {
 
     /// Adds a vessel with clicks; it gets its line when it is traced.
     pub(crate) fn begin(&mut self, clicks: &[WorldPoint]) {
-        let id = self.add_named(0, "", "Vessel").id;
+        let id = self.add_named(0, "", self.kind.words().name).id;
         self.give_clicks(id, clicks.to_vec());
     }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
-use crate::study::trace_report::Told;
+use crate::study::trace_report::{Told, VesselDoubt};
 
 /// An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -49,6 +49,10 @@ pub(crate) enum Edit {
     /// Sets whether tracing bridges stretches without visible lumen.
     SetBridge {
         bridge: bool,
+    },
+    /// Sets whether tracing looks for dark lumens. Vessels keep their lines, but lose their clicks.
+    SetDark {
+        dark: bool,
     },
     /// Sets whether the context hides bone.
     HideBone {
@@ -146,6 +150,8 @@ impl Edit {
             Self::RemoveStopper { .. } => "remove a stopper",
             Self::SetBridge { bridge: true } => "bridge gaps",
             Self::SetBridge { bridge: false } => "leave gaps",
+            Self::SetDark { dark: true } => "trace dark lumens",
+            Self::SetDark { dark: false } => "trace bright lumens",
             Self::HideBone { hidden: true } => "hide bone",
             Self::HideBone { hidden: false } => "show bone",
             Self::Cut { .. } => "cut a vessel",
@@ -190,6 +196,8 @@ pub(crate) struct Edited {
     pub(crate) added: Vec<u32>,
     pub(crate) without_marks: Vec<u32>,
     pub(crate) notes: Vec<String>,
+    /// Places from which found vessels are doubtful.
+    pub(crate) doubts: Vec<VesselDoubt>,
     /// The report on the traced vessel, if it is a single one.
     pub told: Option<Told>,
 }

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::WorldPoint;
 use crate::study::failure::Result;
-use crate::study::held_volume::no_volume;
 use crate::study::open_study::Study;
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -36,7 +35,7 @@ pub(crate) struct PointedLumen {
 
 impl Study {
     pub(crate) fn lumens(&self, pointed: &PointedMessage) -> Result<Vec<PointedLumen>> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let point = DVec3::from_array(pointed.point);
         let seen: Vec<(SeenLumen, DVec3)> = match pointed.along.map(DVec3::from_array) {
             Some(along) => {

@@ -65,7 +65,7 @@ impl Study {
     pub(crate) fn trace_mask(&mut self, watch: Watch) -> Result<MaskLines> {
         let HeldMask { held, label_names } = self.mask.take().ok_or_else(no_mask)?;
         let scan = self.content.held.as_ref().ok_or_else(no_volume)?;
-        let volume = scan.volume()?;
+        let volume = scan.volume()?.with_polarity(self.content.polarity);
         let place = place_of(&Grid::from(&held.volume()?), &Grid::from(&volume))?;
         let mut all_notes: Vec<String> = place.iter().map(|_| placed_note(held.size, scan.size)).collect();
         let mask = place.map_or(Ok(None), |place| placed(&held, &place, scan).map(Some))?.unwrap_or(held);

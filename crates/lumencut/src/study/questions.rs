@@ -35,7 +35,7 @@ use crate::study::regions::{RegionRow, regions};
 use crate::study::report_messages::{Findings, ReportMessage};
 use crate::study::reshaping::Reshaping;
 use crate::study::session_files::SessionContent;
-use crate::study::settings::{LookRow, SettingRow, looks, rows};
+use crate::study::settings::{LookRow, PointMessage, SettingRow, looks, preset_points, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
@@ -156,8 +156,9 @@ of_the_study {
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;
 
     /// Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured
-    /// together. Windows stay unchanged. The context may hide bone.
-    [Turn::First] show { lines: Vec<ListedLine>, bone_hidden: bool } -> Report = {
+    /// together. Windows stay unchanged. The context may hide bone, and tracing may look for dark lumens.
+    [Turn::First] show { lines: Vec<ListedLine>, bone_hidden: bool, dark: bool } -> Report = {
+        study.trace_dark(dark);
         study.hide_bone(bone_hidden, &lines, asking.watch)?;
         study.show(&lines)?;
         study.report()?
@@ -265,6 +266,9 @@ at_once {
 
     /// The comparison of a vessel in two scans as a file, as of `lumencut compare-scans`.
     comparison_file { scans: ScansMessage, kind: String } -> String = scans.file(&kind)?;
+
+    /// The control points of a named transfer function in a window.
+    transfer_points { name: String, window: Window } -> Vec<PointMessage> = preset_points(&name, window)?;
 
     /// The table of settings.
     settings_table(_nothing: ()) -> Vec<SettingRow> = rows();

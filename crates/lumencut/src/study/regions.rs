@@ -1,6 +1,7 @@
 //! For each body region: the look (group of settings), window and slab with which readers usually view it.
 
-use lumencut_core::settings::{LOOKS, Slab, SlabMode, Value};
+use lumencut_core::named::Named;
+use lumencut_core::settings::{ContextName, Focus, LOOKS, Slab, SlabMode, Value};
 use serde::Serialize;
 use serde_json::{Map, Value as Json};
 
@@ -11,8 +12,8 @@ struct Region {
     words: &'static str,
     sentence: &'static str,
     look: &'static str,
-    /// Slab thickness (mm), if it is not that of the look.
-    slab: Option<f64>,
+    /// Settings that are not those of the look.
+    more: fn() -> Vec<(&'static str, Value)>,
     /// Names of the windows for Hounsfield units and for other units.
     presets: [&'static str; 2],
 }
@@ -20,13 +21,13 @@ struct Region {
 /// For heavily calcified vessels the window is at least 1500 HU wide, so that calcium does not hide the lumen (Fleischmann et al.
 /// 2006, doi:10.1097/01.RVI.0000191361.02857.DE, leg arteries). For coronary arteries a 5 mm slab is usual (SCCT, Leipsic et al.
 /// 2014, doi:10.1016/j.jcct.2014.07.003). The other values are our choice.
-const REGIONS: [Region; 5] = [
+const REGIONS: [Region; 6] = [
     Region {
         name: "aorta",
         words: "Aorta",
         sentence: "the cut around the vessels within the shaded body, in the CT angiography window",
         look: "focus",
-        slab: None,
+        more: Vec::new,
         presets: ["cta", "mra"],
     },
     Region {
@@ -34,7 +35,7 @@ const REGIONS: [Region; 5] = [
         words: "Carotid",
         sentence: "the cut through the middle of every vessel, in the CT angiography window",
         look: "lumen",
-        slab: None,
+        more: Vec::new,
         presets: ["cta", "mra"],
     },
     Region {
@@ -42,7 +43,7 @@ const REGIONS: [Region; 5] = [
         words: "Run-off",
         sentence: "the largest value within 10 mm around the cut, in a wide window: calcium does not hide the lumen",
         look: "slab",
-        slab: None,
+        more: Vec::new,
         presets: ["stent", "mra"],
     },
     Region {
@@ -50,7 +51,7 @@ const REGIONS: [Region; 5] = [
         words: "Coronary",
         sentence: "the largest value within 5 mm around the cut, in the CT angiography window",
         look: "slab",
-        slab: Some(5.0),
+        more: thin_slab,
         presets: ["cta", "mra"],
     },
     Region {
@@ -58,10 +59,29 @@ const REGIONS: [Region; 5] = [
         words: "TOF",
         sentence: "for time-of-flight MR: the largest value along each ray, in the MR angiography window",
         look: "mip",
-        slab: None,
+        more: Vec::new,
         presets: ["mra", "mra"],
     },
+    Region {
+        name: "airways",
+        words: "Airways",
+        sentence: "the cut around dark lumens amid the smallest value along each ray, in the lung window",
+        look: "lumen",
+        more: amid_minima,
+        presets: ["lung", "auto"],
+    },
 ];
+
+fn thin_slab() -> Vec<(&'static str, Value)> {
+    vec![("slab", Value::Slab(Slab { thickness: 5.0, mode: SlabMode::Max }))]
+}
+
+fn amid_minima() -> Vec<(&'static str, Value)> {
+    vec![
+        ("focus", Value::Focus(Focus::default())),
+        ("context", Value::Name(ContextName::Minip.name().to_owned())),
+    ]
+}
 
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -85,10 +105,9 @@ pub(crate) fn regions() -> Vec<RegionRow> {
 fn row(region: &Region) -> RegionRow {
     let look = LOOKS.iter().find(|look| look.name == region.look);
     let mut chosen = look.map_or_else(Vec::new, |look| (look.values)());
-    if let Some(thickness) = region.slab {
-        chosen.retain(|(name, _)| *name != "slab");
-        chosen.push(("slab", Value::Slab(Slab { thickness, mode: SlabMode::Max })));
-    }
+    let more = (region.more)();
+    chosen.retain(|(name, _)| more.iter().all(|(own, _)| own != name));
+    chosen.extend(more);
     let [preset, preset_of_other_units] = region.presets;
     RegionRow {
         name: region.name,

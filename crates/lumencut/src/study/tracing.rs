@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
+use lumencut_core::polarity::Polarity;
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
@@ -9,6 +10,7 @@ use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::doubts::Doubt;
 use lumencut_vessels::trace::clicks::preview::Sought;
+use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::find::FindRequest;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
@@ -16,7 +18,6 @@ use serde::{Deserialize, Serialize};
 use crate::found_vessels::{self, FoundLine};
 use crate::study::content::{Listed, NamedTree};
 use crate::study::failure::{Failure, Result};
-use crate::study::held_volume::no_volume;
 use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
@@ -77,9 +78,20 @@ impl From<&StopperMessage> for Stopper {
 }
 
 impl Study {
+    /// Chooses whether tracing looks for dark lumens; forgets what was found before.
+    pub(crate) fn trace_dark(&mut self, dark: bool) {
+        let polarity = if dark { Polarity::Dark } else { Polarity::Bright };
+        if self.content.polarity != polarity {
+            self.content.polarity = polarity;
+            self.tracer = Tracer::default();
+            self.trees = None;
+            self.traced.clear();
+        }
+    }
+
     /// Traces the vessels with clicks and returns their line numbers, in order. An unchanged line keeps its number.
     pub(crate) fn trace(&mut self, request: &TraceRequest, watch: Watch) -> Result<Vec<usize>> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let beside = request.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
         let clicks = Clicks {
             vessels: request.vessels.iter().map(|points| places(points)).collect(),
@@ -100,13 +112,13 @@ impl Study {
     }
 
     pub(crate) fn check_click(&self, click: [f64; 3]) -> Result<()> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)
     }
 
     /// The path of a vessel to the pointer; None if it was not found before `stop`.
     pub(crate) fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let stoppers: Vec<Stopper> = message.stoppers.iter().map(Stopper::from).collect();
         let between = [message.from, message.to].map(DVec3::from_array);
         let sought = Sought { between, stoppers: &stoppers, bridge: message.bridge };
@@ -116,7 +128,7 @@ impl Study {
 
     /// The vessels connected to the vessel at a seed, down to Python's default radius; doubtful ones last.
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let Watch { stop, progress } = watch;
         let request = FindRequest { smallest_radius: None, stop, progress: Some(progress) };
         let tree = found_vessels::trace_from(&volume, DVec3::from_array(seed), &request)?;
@@ -133,7 +145,7 @@ impl Study {
         let as_tree =
             if doubtful { found_vessels::tree_with_doubtful } else { found_vessels::confident_tree };
         let trees = self.trees(watch)?.clone();
-        let tree = as_tree(&self.content.held.as_ref().ok_or_else(no_volume)?.volume()?, &trees)?;
+        let tree = as_tree(&self.content.traced()?, &trees)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 

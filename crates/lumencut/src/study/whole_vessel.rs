@@ -15,7 +15,6 @@ use crate::found_vessels::one_vessel;
 use crate::study::document::{DocumentVessel, WorldPoint};
 use crate::study::draft::Draft;
 use crate::study::failure::Result;
-use crate::study::held_volume::no_volume;
 use crate::study::lines::Line;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
@@ -36,7 +35,7 @@ pub(crate) struct WholeVessel {
 
 impl Study {
     pub(crate) fn trees(&mut self, watch: Watch) -> Result<&Trees> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let Watch { stop, progress } = watch;
         let request = FindRequest { smallest_radius: None, stop, progress: Some(progress) };
         Ok(match self.trees.take() {
@@ -63,13 +62,14 @@ impl Study {
         let short = if is_short { self.short_vessel(click, &draft.document.vessels, watch)? } else { None };
         if let Some(line) = short {
             let line = self.lines.add(line)?;
-            let name = draft.add_named(line, "", "Vessel").called();
+            let name = draft.add_named(line, "", draft.kind.words().name).called();
             notes.push(format!(
-                "{name} was traced from the click alone, because no vessel was found there: check it."
+                "{name} was traced from the click alone, because no {} was found there: check it.",
+                draft.kind.words().one
             ));
         } else if let Some(line) = known? {
             let line = self.lines.add(line.into())?;
-            draft.add_named(line, "", "Vessel");
+            draft.add_named(line, "", draft.kind.words().name);
         }
         Ok(())
     }
@@ -81,7 +81,7 @@ impl Study {
         vessels: &[DocumentVessel],
         watch: Watch,
     ) -> Result<Option<Line>> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let Some(ends) = OwnLumen::around(&Voxels::new(&volume), DVec3::from_array(click)).cut_ends() else {
             return Ok(None);
         };
@@ -106,7 +106,7 @@ impl Study {
         click: WorldPoint,
         vessels: &[DocumentVessel],
     ) -> Result<Option<Centerline>> {
-        let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
+        let volume = self.content.traced()?;
         let Some(trees) = &self.trees else { return Ok(None) };
         let sure = vessels.iter().filter(|vessel| vessel.is_sure());
         let beside = sure.map(|vessel| Ok(self.lines.get(vessel.line)?.met()));

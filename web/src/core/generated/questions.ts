@@ -94,6 +94,9 @@ export type ComparedScans = {
   readonly axis: Axis;
 };
 
+/** A control point of a transfer function: intensity (unit of the volume), colour (RGB) and opacity per mm. */
+export type ControlPoint = readonly [number, Vector, number];
+
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -205,6 +208,9 @@ export type Edit = {
   readonly "kind": "set_bridge";
   readonly bridge: boolean;
 } | {
+  readonly "kind": "set_dark";
+  readonly dark: boolean;
+} | {
   readonly "kind": "hide_bone";
   readonly hidden: boolean;
 } | {
@@ -265,6 +271,8 @@ export type Edited = {
   readonly added: ReadonlyArray<number>;
   readonly without_marks: ReadonlyArray<number>;
   readonly notes: ReadonlyArray<string>;
+  /** Places from which found vessels are doubtful. */
+  readonly doubts: ReadonlyArray<VesselDoubt>;
   /** The report on the traced vessel, if it is a single one. */
   readonly told: Told | null;
 };
@@ -346,6 +354,8 @@ export type Legend = {
   readonly high: number;
   readonly colours: ReadonlyArray<Vector>;
 };
+
+export type LensOf = "perspective" | "fisheye";
 
 export type LineContent = {
   /** At least two points (mm, LPS). */
@@ -649,6 +659,14 @@ export type Reformation = {
   readonly "kind": "map";
   readonly vessel: number;
   readonly of: MapOf;
+} | {
+  readonly "kind": "endoscopy";
+  readonly vessel: number;
+  /** Arc length (mm). */
+  readonly at: number;
+  readonly lens: LensOf;
+  /** Whether the eye looks towards the start of the vessel. */
+  readonly backwards: boolean;
 };
 
 export type ReformedPicture = {
@@ -856,6 +874,8 @@ export type SavedSession = {
   readonly one_millimetre_assumed?: boolean;
   /** Whether the context hides bone; exists since version 2. */
   readonly bone_hidden?: boolean;
+  /** Whether tracing looks for dark lumens; exists since version 2. */
+  readonly dark?: boolean;
   /** The scan that the reader compares with this one; exists since version 2. */
   readonly compared?: SavedComparison;
 };
@@ -1093,6 +1113,18 @@ export type VesselDocument = {
   readonly bridge: boolean;
   /** Whether the context hides bone. */
   readonly bone_hidden: boolean;
+  /** Whether tracing looks for lumens that are darker than the tissue around them. */
+  readonly dark: boolean;
+};
+
+/** A doubt about a vessel that was found, with its place. */
+export type VesselDoubt = {
+  readonly line: number;
+  readonly kind: string;
+  /** A sentence that states the reason of the doubt. */
+  readonly words: string;
+  /** The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line. */
+  readonly at: number | null;
 };
 
 export type VesselReport = {
@@ -1127,7 +1159,9 @@ export type VolumeReport = {
   readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
-  /** Notes for the user on its size and its values. */
+  /** Doubt about its size or axes, which concerns every picture. */
+  readonly doubt: string | null;
+  /** Notes for the user, this doubt included. */
   readonly notes: ReadonlyArray<string>;
 };
 
@@ -1363,11 +1397,12 @@ export type Questions = {
     readonly message: LineContent;
     readonly answer: number;
   };
-  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone. */
+  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. The context may hide bone, and tracing may look for dark lumens. */
   readonly show: {
     readonly message: {
       readonly lines: ReadonlyArray<ListedLine>;
       readonly bone_hidden: boolean;
+      readonly dark: boolean;
     };
     readonly answer: Report;
   };
@@ -1566,6 +1601,14 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** The control points of a named transfer function in a window. */
+  readonly transfer_points: {
+    readonly message: {
+      readonly name: string;
+      readonly window: Pair;
+    };
+    readonly answer: ReadonlyArray<ControlPoint>;
+  };
   /** The table of settings. */
   readonly settings_table: {
     readonly message: null;
@@ -1647,6 +1690,7 @@ export const TURNS = {
   motion_between: { when: 'at once', words: null },
   compare_scans: { when: 'at once', words: null },
   comparison_file: { when: 'at once', words: null },
+  transfer_points: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
   regions: { when: 'at once', words: null },

@@ -24,6 +24,11 @@ const STRETCH: (f64, f64) = (0.4, 0.06);
 /// Minimum fraction of directions in which nothing obstructs the wall.
 const LEAST_FREE: f64 = 0.35;
 
+/// Level of the surroundings and its standard deviation (fractions of the contrast): mostly, and around airways, where it
+/// is that of lung or of soft tissue.
+const AROUND: Level = [0.0, 0.5];
+const AROUND_AIRWAY: Level = [0.5, 0.5];
+
 /// The lumen level is read within this fraction of the radius, if blur leaves at least `LEAST_PEAK` of the peak.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
@@ -74,7 +79,7 @@ impl Bench<'_, '_> {
         let expected = Expected {
             // A smaller, brighter ellipse fits a sharp wall as well, so the level visible in the middle is used.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
-            background: [0.0, 0.5],
+            background: if self.is_airway() { AROUND_AIRWAY } else { AROUND },
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),
             noise: known.noise(),
             is_guessed: known.noise.is_none(),

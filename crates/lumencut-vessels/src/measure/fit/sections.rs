@@ -128,6 +128,10 @@ impl Section {
 }
 
 impl Bench<'_, '_> {
+    pub(super) fn is_airway(&self) -> bool {
+        self.wall.is_some_and(|wall| wall.is_airway)
+    }
+
     pub(crate) fn estimates(
         &self,
         places: &[SectionPlane],
@@ -170,7 +174,8 @@ impl Bench<'_, '_> {
             levels: [known.lumen[0], 0.0],
             // If the lumen is darker than its surroundings, bright values do not mean calcium.
             bright: if is_bright_lumen { bright } else { f64::INFINITY },
-            rise: RISE.0.max(RISE.1 * noise),
+            // Beyond the wall of an airway, lung is nearly as dark as its lumen.
+            rise: if self.is_airway() { f64::INFINITY } else { RISE.0.max(RISE.1 * noise) },
             reach: known.ellipse.semi_axes()[1] * 2.0 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
             beyond: RAY_BEYOND.0 + RAY_BEYOND.1 * width,
         }
@@ -210,8 +215,8 @@ impl Bench<'_, '_> {
         if diameter > 2.0 * width && irregularity(&ellipse, &walls) > ROUGH_WALL {
             flags |= IRREGULAR;
         }
-        if fit.lumen[0] - fit.background < LEAST_CONTRAST * known.noise() || fit.uncertainty > 0.5 * diameter
-        {
+        let around = if self.is_airway() { beside } else { fit.background };
+        if fit.lumen[0] - around < LEAST_CONTRAST * known.noise() || fit.uncertainty > 0.5 * diameter {
             flags |= NO_EDGE;
         }
         if let Some(share) = self.narrowed_by_plaque(place, &fit, &walls, flags) {
@@ -237,13 +242,15 @@ impl Bench<'_, '_> {
 
     /// Factor of the diameter if plaque that is nearly as bright as the lumen is left out; None without such plaque.
     fn narrowed_by_plaque(&self, place: &SectionPlane, fit: &Fit, walls: &[f64], flags: u32) -> Option<f64> {
-        let levels = [fit.lumen[0], self.wall.filter(|_| flags & PLAQUE_HIDDEN == 0)?.level[0]];
+        let wall = self.wall.filter(|wall| flags & PLAQUE_HIDDEN == 0 && !wall.is_airway);
+        let levels = [fit.lumen[0], wall?.level[0]];
         narrowed(&self.rays, (place, fit.ellipse.center), walls, levels, self.blur.width(place))
     }
 
     fn is_beside_bright(&self, place: &SectionPlane, fit: &Fit, walls: &[f64], flags: u32) -> bool {
         let hidden = self.doubt.as_ref().and_then(|doubt| doubt.wall);
-        self.wall.or(hidden).filter(|_| flags & PLAQUE_HIDDEN == 0).is_some_and(|wall| {
+        let is_shown = |wall: &KnownWall| flags & PLAQUE_HIDDEN == 0 && !wall.is_airway;
+        self.wall.or(hidden).filter(is_shown).is_some_and(|wall| {
             let levels = [fit.lumen[0], wall.level[0]];
             is_bright_behind(&self.rays, (place, fit.ellipse.center), walls, levels, self.blur.width(place))
         })

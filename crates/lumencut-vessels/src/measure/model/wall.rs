@@ -81,12 +81,14 @@ pub(crate) struct KnownWall {
     pub slope: f64,
     /// Whether the wall may be as thin as that of pulmonary vessels.
     pub(crate) is_in_lung: bool,
+    /// Whether the wall surrounds air: both lumen and surroundings are darker than the wall.
+    pub(crate) is_airway: bool,
 }
 
 impl KnownWall {
     pub(crate) fn of(level: Level, scale: &Scale) -> Self {
         let share = [scale.share(level[0]), level[1] / scale.contrast.abs()];
-        Self { level: share, log_thickness: None, slope: 0.0, is_in_lung: false }
+        Self { level: share, log_thickness: None, slope: 0.0, is_in_lung: false, is_airway: false }
     }
 
     pub(crate) fn log_thickness(&self, lumen: &Ellipse) -> Level {

@@ -35,7 +35,7 @@ use crate::measure::section::{SectionPlane, Track, known_radius};
 use crate::measure::uncertainty::texture::{Pairs, Texture};
 use crate::measure::wall::pool::{is_apart, pooled, unpooled_level};
 use crate::measure::wall::tree::{PooledWall, wall_beside};
-use crate::measure::wall::{BRIGHT_WALL, WallSource, expected, is_below_lumen, is_hounsfield};
+use crate::measure::wall::{BRIGHT_WALL, WallSource, expected, is_airway, is_below_lumen, is_hounsfield};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
@@ -87,7 +87,8 @@ impl PreparedVessel {
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
         let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
-        let assumed = AssumedSpread::of(voxels.world_from_index.matrix3, is_hounsfield(voxels, &scale));
+        let is_ct = is_hounsfield(voxels, &scale) || is_airway(voxels, &scale);
+        let assumed = AssumedSpread::of(voxels.world_from_index.matrix3, is_ct);
         let bench = bench(voxels, scale, wall, assumed.fwhm[0]);
         let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
         for (estimate, place) in estimates.iter_mut().zip(&first) {
@@ -274,7 +275,7 @@ impl PreparedVessel {
         if is_hounsfield(voxels, &self.scale) && !is_in_lung {
             flag_struts(bench, &self.places, &mut sections);
         }
-        if let Some(wall) = &bench.wall {
+        if let Some(wall) = bench.wall.as_ref().filter(|wall| !wall.is_airway) {
             flag_dim_plaque(&self.places, &mut sections, &read.lumen, wall.level[0]);
         }
         let variance: Vec<f64> =
@@ -282,7 +283,9 @@ impl PreparedVessel {
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
         settle(&self.places, &mut sections, bench.fwhm);
-        flag_contradicted(bench, &self.places, &mut sections);
+        if !self.wall.is_some_and(|wall| wall.is_airway) {
+            flag_contradicted(bench, &self.places, &mut sections);
+        }
         Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
         flag_stents(bench, &self.places, &mut sections);
         let wall_source = match by_others {

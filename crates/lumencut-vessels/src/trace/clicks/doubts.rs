@@ -13,6 +13,7 @@ use crate::trace::lumen::wall_crossing::{WallCrossing, wall_crossings};
 use crate::trace::lumen::wander::wandering;
 use crate::voxels::Voxels;
 use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_core::polarity::Polarity;
 
 /// A line between two clicks is a detour if it is longer than their distance by more than this factor.
 const DETOUR: f64 = 2.0;
@@ -28,6 +29,8 @@ const APART: f64 = 20.0;
 pub struct Doubt {
     /// A sentence that states the reason.
     pub words: String,
+    /// The reason in short: the same for all doubts of one kind.
+    pub kind: &'static str,
     /// The arc length (mm) from which, or up to which, the line is doubtful; None for the whole line.
     pub at: Option<f64>,
 }
@@ -48,16 +51,19 @@ impl Doubted<'_> {
     pub fn doubts(&self, voxels: &Voxels) -> Vec<Doubt> {
         if self.runs_across(voxels) {
             let words = "The path runs across the lumen, not along it: click in another slice.".to_owned();
-            return vec![Doubt { words, at: None }];
+            return vec![Doubt { words, kind: "runs across the lumen", at: None }];
         }
         let lengths = arc_lengths(&self.line.points);
         let change = level_change(voxels, self.line).map(|change| {
             let at = lengths[change.at];
-            let [before, after] = change.levels;
+            let [before, after] = change.levels.map(|level| voxels.polarity.turned(level));
             let why = format!("the brightness of the lumen changes there from {before:.0} to {after:.0}");
-            let words =
-                format!("Doubtful from {at:.0} mm on: {why}: another lumen, or fading contrast medium.");
-            Doubt { words, at: Some(at) }
+            let cause = match voxels.polarity {
+                Polarity::Bright => "another lumen, or fading contrast medium",
+                Polarity::Dark => "another lumen, or a leak",
+            };
+            let words = format!("Doubtful from {at:.0} mm on: {why}: {cause}.");
+            Doubt { words, kind: "changes its brightness", at: Some(at) }
         });
         let crossed = self.crossed(voxels, &lengths);
         let wander =
@@ -88,11 +94,13 @@ impl Doubted<'_> {
             let [from, to] = [part[0].at, part[part.len() - 1].at].map(|n| lengths[n]);
             let place =
                 if to > from { format!("from {from:.0} to {to:.0} mm") } else { format!("at {from:.0} mm") };
-            let [beside, within] = part[0].levels;
-            let why =
-                format!("the line crosses a dark sheet ({within:.0} between {beside:.0}), a flap or a wall");
+            let [beside, within] = part[0].levels.map(|level| voxels.polarity.turned(level));
+            let sheet = if voxels.polarity == Polarity::Dark { "bright" } else { "dark" };
+            let why = format!(
+                "the line crosses a {sheet} sheet ({within:.0} between {beside:.0}), a flap or a wall"
+            );
             let words = format!("Doubtful {place}: {why}: perhaps another vessel or lumen.");
-            Doubt { words, at: Some(from) }
+            Doubt { words, kind: "crosses a flap or wall", at: Some(from) }
         };
         crossings.chunk_by(|a, b| lengths[b.at] - lengths[a.at] <= APART).map(tell).collect()
     }
@@ -107,18 +115,18 @@ impl Doubted<'_> {
         let words = detours.map(|(way, distance)| {
             format!("Doubtful: the line is {way:.0} mm long between points {distance:.0} mm apart: check its way, and add points along it.")
         });
-        words.map(|words| Doubt { words, at: None }).collect()
+        words.map(|words| Doubt { words, kind: "makes a detour", at: None }).collect()
     }
 
     fn guesses(&self, voxels: &Voxels, lengths: &[f64]) -> Vec<Doubt> {
         let tell = |part: &Range<usize>| {
             let places = part.clone().filter(|n| self.bridged[*n]).map(|n| self.line.points[n]);
-            let mut values: Vec<f32> = places.map(|place| voxels.at(place)).collect();
+            let mut values: Vec<f32> = places.map(|place| voxels.shown_at(place) as f32).collect();
             values.sort_unstable_by(f32::total_cmp);
             let [from, to] = [part.start, part.end - 1].map(|n| lengths[n]);
             let why = format!("no clear lumen is seen there (about {:.0})", quantile(&values, 0.5));
             let words = format!("Doubtful from {from:.0} to {to:.0} mm: {why}, so the line is a guess.");
-            Doubt { words, at: Some(from) }
+            Doubt { words, kind: "has no clear lumen", at: Some(from) }
         };
         let parts = stretches(self.bridged, |from, to| lengths[to] - lengths[from] <= APART);
         parts.iter().map(tell).collect()
@@ -143,5 +151,5 @@ fn wanders([from, to]: [f64; 2]) -> Doubt {
     } else {
         (format!("Doubtful up to {to:.0} mm: {why}."), to)
     };
-    Doubt { words, at: Some(at) }
+    Doubt { words, kind: "turns too tightly", at: Some(at) }
 }

@@ -134,16 +134,17 @@ fn stretches(marked: &[bool]) -> Vec<Range<usize>> {
 }
 
 pub(crate) fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
+    let value = model.polarity.turned(f64::from(gap.value));
     let found = format!(
         "{:.1} mm between them that do not look like lumen, least at {}, where the volume has {:.0}",
         gap.length,
         in_words(gap.place),
-        gap.value
+        value
     );
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
         .mend("add a point where the vessel continues")
         .mended_by(Mend::Bridge)
-        .at(gap.place, f64::from(gap.value))
+        .at(gap.place, value)
 }
 
 pub(crate) fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
@@ -162,6 +163,7 @@ fn expected(model: &LumenModel) -> String {
 
 fn range(model: &LumenModel) -> String {
     let unit = if model.is_hounsfield { " HU" } else { "" };
-    let (low, high) = (model.low.round(), model.high.round());
+    let ends = [model.low, model.high].map(|value| model.polarity.turned(value).round());
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
     if low < high { format!("{low} to {high}{unit}") } else { format!("{low}{unit}") }
 }

@@ -1,5 +1,6 @@
 //! Results of finding vessels.
 
+use crate::kind::Kind;
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lines::centerline::Centerline;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -19,8 +20,8 @@ pub struct Trees {
     pub noise: f64,
     /// Whether the scan looks like an angiography. If not, and without a seed, no vessel is sure.
     pub is_angiography: bool,
-    /// Whether the values are HU, so that the words are those of CT.
-    pub is_hounsfield: bool,
+    /// What the vessels are, for their words.
+    pub kind: Kind,
     /// The smallest radius (mm) by which these vessels were found.
     pub smallest_radius: f64,
     /// What a smaller radius finds, if no vessel is sure here.
@@ -84,47 +85,29 @@ impl TrackDoubt {
         Self::Scarce,
     ];
 
-    /// The reason as a phrase for sentences, with the words of CT or of other scans.
-    pub fn words(self, is_ct: bool) -> &'static str {
-        match self {
-            Self::Scarce if is_ct => {
-                "hardly any vessel of the scan is long, round and bright: it may have no contrast medium"
-            }
-            Self::Scarce => {
-                "hardly any vessel of the scan is long, round and bright: it may be no angiography"
-            }
-            Self::BrightSides if is_ct => "it is bright on most sides: bone?",
-            Self::BrightSides => "it is bright on most sides: fat or skin?",
-            Self::Flat if is_ct => "it is flat, like a plate of bone",
-            Self::Flat => "it is flat, like a layer of tissue",
-            Self::Uneven if is_ct => "it is uneven inside, like marrow",
-            Self::Uneven => "it is uneven inside, like tissue",
-            Self::PaleAndWide => "it is wide and paler than the vessels, like an organ",
-            Self::Short => "it is short",
-            Self::Rough => "its width changes from place to place",
-            Self::Faint => "its contrast is low",
-            Self::Open => "few of its walls are seen",
-            Self::Gap => "it bridges a gap",
-        }
+    /// The reason as a phrase for sentences, in the words of a kind of lumens.
+    pub fn words(self, kind: Kind) -> &'static str {
+        self.texts(kind)[0]
     }
 
     /// The reason in a word or two, for lists and counts.
-    pub fn short(self, is_ct: bool) -> &'static str {
+    pub fn short(self, kind: Kind) -> &'static str {
+        self.texts(kind)[1]
+    }
+
+    fn texts(self, kind: Kind) -> [&'static str; 2] {
+        let words = kind.words();
         match self {
-            Self::Scarce if is_ct => "no contrast agent?",
-            Self::Scarce => "no angiography?",
-            Self::BrightSides if is_ct => "near bone",
-            Self::BrightSides => "bright beside",
-            Self::Flat if is_ct => "flat, like bone",
-            Self::Flat => "flat",
-            Self::Uneven if is_ct => "marrow-like",
-            Self::Uneven => "uneven inside",
-            Self::PaleAndWide => "wide and pale",
-            Self::Short => "short",
-            Self::Rough => "uneven width",
-            Self::Faint => "faint",
-            Self::Open => "open contour",
-            Self::Gap => "bridges a gap",
+            Self::Scarce => words.scarce,
+            Self::BrightSides => words.sides,
+            Self::Flat => words.flat,
+            Self::Uneven => words.uneven,
+            Self::PaleAndWide => words.pale,
+            Self::Short => ["it is short", "short"],
+            Self::Rough => ["its width changes from place to place", "uneven width"],
+            Self::Faint => ["its contrast is low", "faint"],
+            Self::Open => ["few of its walls are seen", "open contour"],
+            Self::Gap => ["it bridges a gap", "bridges a gap"],
         }
     }
 }

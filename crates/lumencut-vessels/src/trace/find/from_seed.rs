@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::find::found::{FoundVessel, Trees};
+use crate::trace::find::track::TrackDoubt;
 use crate::trace::find::{FindRequest, refusals, trees};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
@@ -32,10 +33,10 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
         return Err(refusals::no_vessel(&trees));
     }
     let side = voxels.mean_side();
-    let value = || f64::from(voxels.at(seed));
+    let (kind, place) = (trees.kind, (seed, voxels.shown_at(seed)));
     match part_at(&trees, seed, side) {
-        Ok(part) => sure(only(trees, part)).map_err(|doubt| refusals::only_doubtful(seed, value(), doubt)),
-        Err((nearest, distance)) => Err(refusals::not_here(seed, value(), nearest, distance)),
+        Ok(part) => sure(only(trees, part)).map_err(|doubt| refusals::only_doubtful(place, kind, doubt)),
+        Err((nearest, distance)) => Err(refusals::not_here(place, kind, nearest, distance)),
     }
 }
 
@@ -96,10 +97,10 @@ fn only(trees: Trees, part: usize) -> Trees {
     Trees { vessels: vessels.map(|vessel| FoundVessel { part: 0, ..vessel }).collect(), ..trees }
 }
 
-fn sure(trees: Trees) -> std::result::Result<Trees, &'static str> {
+fn sure(trees: Trees) -> std::result::Result<Trees, TrackDoubt> {
     let doubts: Vec<_> = trees.vessels.iter().map(|vessel| vessel.doubt).collect();
     match doubts.first() {
-        Some(Some(doubt)) if !doubts.contains(&None) => Err(doubt.words(trees.is_hounsfield)),
+        Some(Some(doubt)) if !doubts.contains(&None) => Err(*doubt),
         _ => Ok(trees),
     }
 }

@@ -104,9 +104,9 @@ impl Level {
         made
     }
 
-    fn clamp(&mut self, highest: f64) {
-        let most = ((highest as f32 - self.lowest) / self.unit).clamp(0.0, FULL) as u16;
-        self.voxels.par_iter_mut().for_each(|voxel| *voxel = (*voxel).min(most));
+    fn clamp(&mut self, ends: [f64; 2]) {
+        let [least, most] = ends.map(|end| ((end as f32 - self.lowest) / self.unit).clamp(0.0, FULL) as u16);
+        self.voxels.par_iter_mut().for_each(|voxel| *voxel = (*voxel).max(least).min(most));
     }
 
     fn halved(&self) -> Self {
@@ -170,9 +170,10 @@ impl Pyramid {
         Ok(pyramid)
     }
 
-    pub(crate) fn clamp(&mut self, highest: f64, stop: Stop) -> Result<()> {
+    /// Limits the values to a range.
+    pub(crate) fn clamp(&mut self, ends: [f64; 2], stop: Stop) -> Result<()> {
         self.levels.truncate(1);
-        self.levels[0].clamp(highest);
+        self.levels[0].clamp(ends);
         self.halve(stop)
     }
 

@@ -16,13 +16,18 @@ use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
 use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::vessel_level::{Readings, UsualLevel, vessel_level};
+use crate::trace::lumen::lumen_model::holds_air;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
+use lumencut_core::polarity::Polarity;
 use lumencut_core::stop::Stop;
 
 /// If a scan has values below `AIR` (HU), its values below `WATER` (fat, lung and air) are raised to `WATER`.
 const AIR: f64 = -200.0;
 const WATER: f64 = 0.0;
+
+/// If the usual lumens hold air (HU), the second pass reads only values up to this: fat and soft tissue look alike.
+const AROUND_AIR: f64 = -500.0;
 
 /// Quantile that caps the values of the first pass, and number of samples from which it is taken.
 const BRIGHTEST: f64 = 0.999;
@@ -59,10 +64,12 @@ pub(crate) fn tubes<'v>(
     let mut pyramid = Pyramid::new(voxels, grid, range, stop)?;
     stages.stage(Stage::FirstPass, 1);
     let Some([level, contrast]) = usual(&pyramid, range[1] - range[0], stop)? else { return Ok(None) };
-    pyramid.clamp((level + ABOVE * contrast).min(range[1]), stop)?;
+    let lowest = lowest_beside(voxels.polarity, level).map_or(range[0], |lowest| lowest.max(range[0]));
+    let contrast = contrast.min(level - lowest);
+    pyramid.clamp([lowest, (level + ABOVE * contrast).min(range[1])], stop)?;
     let noise = noise(&pyramid.levels[0]);
     let side = pyramid.grid.side;
-    let scan = Scan { voxels, side, lowest: range[0], level, contrast, noise, is_hounsfield };
+    let scan = Scan { voxels, side, lowest, level, contrast, noise, is_hounsfield };
     let floors = Floors { noise, contrast };
     let vessels = UsualVessels { level, contrast };
     let judge = |points: Vec<TrackPoint>| {
@@ -102,6 +109,11 @@ impl Tubes<'_> {
         self.tracks.extend(tracks);
         Ok(())
     }
+}
+
+/// The lowest value that counts beside lumens of a level, both as they are traced; None for all values.
+fn lowest_beside(polarity: Polarity, level: f64) -> Option<f64> {
+    holds_air(polarity, level).then(|| polarity.turned(AROUND_AIR))
 }
 
 struct Range {

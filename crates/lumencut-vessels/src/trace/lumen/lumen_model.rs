@@ -1,6 +1,9 @@
 //! The values of lumen and of the tissue around it. Membership in lumen is gradual between bounds.
 
 use glam::DVec3;
+use lumencut_core::polarity::Polarity;
+
+use crate::kind::AIR;
 
 /// Values of a lumen and of its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +18,21 @@ pub struct LumenModel {
     pub noise: f64,
     /// Whether the values are Hounsfield units.
     pub is_hounsfield: bool,
+    /// Whether the values are those of the volume, or negated.
+    pub polarity: Polarity,
+}
+
+/// Level of lung (HU).
+const LUNG: f64 = -780.0;
+
+/// Whether a lumen with this value, as it is traced, holds air in CT.
+pub(crate) fn holds_air(polarity: Polarity, lumen: f64) -> bool {
+    polarity == Polarity::Dark && AIR.contains(&polarity.turned(lumen))
+}
+
+/// The level of the tissue beside a lumen; beside air at least that of lung, so that nothing leaks into lung.
+pub(crate) fn tissue_beside(polarity: Polarity, lumen: f64, tissue: f64) -> f64 {
+    if holds_air(polarity, lumen) { tissue.max(polarity.turned(LUNG)) } else { tissue }
 }
 
 impl LumenModel {

@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::{
-    LumenModel, in_words, lower_median, noise_of, quantile, tissue_level,
+    LumenModel, in_words, lower_median, noise_of, quantile, tissue_beside, tissue_level,
 };
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
+use lumencut_core::polarity::Polarity;
 
 /// A volume is in HU if this fraction of its voxels is below the limit, because fat and air are negative only in CT.
 const HOUNSFIELD_SHARE: f64 = 0.01;
@@ -45,6 +46,7 @@ const CLEAR_NOISES: f64 = 8.0;
 const CT_MISTAKES: [&str; 2] = ["bone, metal or calcium", "tissue, or blood without contrast medium"];
 const OTHER_MISTAKES: [&str; 2] =
     ["something far brighter than the lumen", "tissue, or blood without signal"];
+const DARK_MISTAKES: [&str; 2] = ["something far darker than the lumen", "tissue, such as lung"];
 
 type Mistake = (&'static str, String);
 
@@ -56,6 +58,7 @@ pub struct Surroundings {
     most: f64,
     bright: f64,
     is_hounsfield: bool,
+    polarity: Polarity,
 }
 
 /// Values at a click: the click's own value, median and spread of the lumen around it, and the noise.
@@ -77,15 +80,17 @@ impl Surroundings {
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
         // The entire scan is sampled, because a heart contains neither fat nor air.
-        let is_hounsfield = are_hounsfield(voxels);
+        let is_hounsfield = voxels.polarity == Polarity::Bright && are_hounsfield(voxels);
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
         let around = &samples[first..];
         let level =
             tissue_level(if is_hounsfield { without_blood(around, &values) } else { around }, &values);
+        let lumen = values.into_iter().fold(f64::MAX, f64::min);
+        let level = tissue_beside(voxels.polarity, lumen, level);
         let tissue = if is_hounsfield { level.max(LEAST_TISSUE) } else { level };
         let [most, bright] = [DARKER, 0.995].map(|share| quantile(around, share));
-        Self { tissue, most, bright, is_hounsfield }
+        Self { tissue, most, bright, is_hounsfield, polarity: voxels.polarity }
     }
 
     /// Intensity level of the tissue around the lumen.
@@ -137,8 +142,20 @@ impl Surroundings {
         if self.is_hounsfield || !is_clear || lumen > self.most || lumen >= least {
             return Ok(());
         }
-        let expected = format!("lumen, brighter than {least:.0}");
-        self.check(voxels, click, value, Some((OTHER_MISTAKES[1], expected)))
+        self.check(voxels, click, value, Some((self.mistakes()[1], self.beyond(least))))
+    }
+
+    /// What a click hit instead of lumen: something far brighter (darker), or no brighter (darker).
+    fn mistakes(&self) -> [&'static str; 2] {
+        match self.polarity {
+            Polarity::Dark => DARK_MISTAKES,
+            Polarity::Bright if self.is_hounsfield => CT_MISTAKES,
+            Polarity::Bright => OTHER_MISTAKES,
+        }
+    }
+
+    fn beyond(&self, least: f64) -> String {
+        format!("lumen, {} than {:.0}", self.polarity.brighter(), self.polarity.turned(least))
     }
 
     /// The least value that surely looks like lumen, if the unit is unknown.
@@ -189,15 +206,16 @@ impl Surroundings {
             high: lumens().fold(f64::MIN, f64::max),
             noise: hits.iter().map(|hit| hit.spread).fold(0.0, f64::max),
             is_hounsfield: self.is_hounsfield,
+            polarity: self.polarity,
         }
     }
 
     fn check(&self, voxels: &Voxels, click: DVec3, value: f64, mistake: Option<Mistake>) -> Result<()> {
         let Some((tissue, expected)) = mistake else { return Ok(()) };
-        let found = format!("{tissue}, about {value:.0} around it");
+        let found = format!("{tissue}, about {:.0} around it", self.polarity.turned(value));
         let error = Error::new(ErrorKind::Tracing, format!("point {}", in_words(click)), found, expected);
         // The value that a viewer shows at this place.
-        let error = error.about(Clicked::Single).at(click, f64::from(voxels.at(click)));
+        let error = error.about(Clicked::Single).at(click, voxels.shown_at(click));
         Err(match self.nearest_lumen(voxels, click) {
             Some(place) => {
                 let away = place.distance(click);
@@ -228,13 +246,16 @@ impl Surroundings {
     fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
         let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
-        let [bright, dark] = if self.is_hounsfield { CT_MISTAKES } else { OTHER_MISTAKES };
+        let [bright, dark] = self.mistakes();
         if hit.lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
-            return Some((bright, format!("lumen of about {usual:.0}, as at another point")));
+            return Some((
+                bright,
+                format!("lumen of about {:.0}, as at another point", self.polarity.turned(usual)),
+            ));
         }
         // False if the value is NaN.
         let is_bright = hit.lumen > least;
-        (!is_bright).then(|| (dark, format!("lumen, brighter than {least:.0}")))
+        (!is_bright).then(|| (dark, self.beyond(least)))
     }
 
     /// The nearest position within 10 mm that is surrounded by lumen values.

@@ -80,6 +80,7 @@ impl GreyValues<'_, '_> {
             high: of(f64::max)?,
             noise: 1.4826 * quantile(&away, 0.5),
             is_hounsfield: false,
+            polarity: self.voxels.polarity,
         };
         (model.contrast() > LEAST_CONTRAST * model.noise && model.contrast() > 0.0).then_some(model)
     }

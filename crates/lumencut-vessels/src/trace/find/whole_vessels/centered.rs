@@ -10,7 +10,7 @@ use crate::trace::find::whole_vessels::graph::WayPoint;
 use crate::trace::find::whole_vessels::run_path::Way;
 use crate::trace::find::whole_vessels::runs::{Run, Runs};
 use crate::trace::lines::nearest_point;
-use crate::trace::lumen::lumen_model::LumenModel;
+use crate::trace::lumen::lumen_model::{LumenModel, tissue_beside};
 use crate::trace::lumen::refine::{STEP, refined_near};
 use crate::trace::lumen::ridge::on_ridge;
 use lumencut_core::error::Result;
@@ -99,7 +99,9 @@ fn model(scan: &Scan, way: &[WayPoint]) -> LumenModel {
         quantile(&mut way.iter().map(value).collect::<Vec<f64>>(), share).unwrap_or(0.0)
     };
     let tissue = of(|point| point.level - point.contrast, 0.5);
+    let tissue = tissue_beside(scan.voxels.polarity, scan.level, tissue);
     let least = tissue + LEAST_CONTRAST * of(|point| point.contrast, 0.5);
     let [low, high] = LEVELS.map(|share| of(|point| point.level, share).max(least));
-    LumenModel { tissue, low, high, noise: scan.noise, is_hounsfield: scan.voxels.has_negative() }
+    let (is_hounsfield, polarity) = (scan.voxels.has_negative(), scan.voxels.polarity);
+    LumenModel { tissue, low, high, noise: scan.noise, is_hounsfield, polarity }
 }

@@ -1,0 +1,30 @@
+/** Changes between tracing of vessels and of dark lumens; context and window follow. */
+import { batch } from '@preact/signals';
+import type { Settings } from '../core/messages';
+import type { Window } from '../core/plain';
+import { chooseRegion } from '../state/looks';
+import * as store from '../state/store';
+import { commit, isDone } from './committing';
+import { showProjection } from './mode';
+
+const REGION = 'airways';
+
+/** Settings and window before dark lumens were traced. */
+let before: { readonly settings: Settings; readonly window: Window } | null = null;
+
+export async function traceDark(dark: boolean): Promise<boolean> {
+  const isSet = await isDone(commit({ kind: 'set_dark', dark }));
+  if (isSet) {
+    batch(() => {
+      if (dark) {
+        before = { settings: store.settings.peek(), window: store.window_.peek() };
+        chooseRegion(REGION);
+      } else if (before) {
+        store.settings.value = before.settings;
+        store.window_.value = before.window;
+      }
+      showProjection(dark);
+    });
+  }
+  return isSet;
+}
