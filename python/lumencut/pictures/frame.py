@@ -366,3 +366,13 @@ class Frame(KeepsReadOnly):
         arrays: dict[str, Any] = {name: getattr(self, name) for name in _IMAGES if self.has(name)}
         with path.open("wb") as file:
             np.savez_compressed(file, **arrays)
+
+
+def depth_before(frame: Frame | None) -> tuple[Camera, npt.NDArray[np.float32]] | None:
+    """Return camera and depth of the frame before in a turn."""
+    if frame is None:
+        return None
+    if not isinstance(frame, Frame) or not frame.has("depth"):
+        found = "a frame without depth" if isinstance(frame, Frame) else type(frame).__name__
+        raise SettingsError("before", found, "a Frame of a cut surface, with its depth, or None")
+    return frame.camera, frame.depth

@@ -7,14 +7,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Literal
 
-import numpy as np
-import numpy.typing as npt
-
 from lumencut import _lumencut
 from lumencut.base.checks import callback, choice
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.pictures.along_vessels import AlongVessels
-from lumencut.pictures.frame import BLEND, IMAGES, Frame
+from lumencut.pictures.frame import BLEND, IMAGES, Frame, depth_before
 from lumencut.pictures.frame_source import FrameSource, VesselEnd, frame_source, vessel_ends
 from lumencut.scene.camera import Camera
 from lumencut.scene.checked_settings import checked
@@ -222,7 +219,7 @@ class Renderer:
         callback(SettingsError, "progress", progress)
         along = self._along.of_rim(settings)
         core, volume = self._parts.shown(self._volume, self._tree is not None, camera, settings)
-        last = _before(before)
+        last = depth_before(before)
         buffers = core.render(volume, camera, checked(settings), names, progress, None, along, last)
         return self._frame(camera, settings, buffers, asked, source)
 
@@ -262,7 +259,7 @@ class Renderer:
         camera, settings = self._view(camera, settings)
         asked = None if images is None else _names(images, _OF_CUT_SURFACE)
         names = asked if asked is not None else self._at_once(settings)
-        last = _before(before)
+        last = depth_before(before)
         buffers = self._core.render(None, camera, checked(settings), names, None, None, None, last)
         if asked is not None:
             buffers = {name: buffers[name] for name in (*asked, "timings")}
@@ -383,16 +380,6 @@ def check_renderer(renderer: Any) -> None:
     """Reject anything but a renderer."""
     if not isinstance(renderer, Renderer):
         raise SettingsError("renderer", type(renderer).__name__, "a Renderer")
-
-
-def _before(frame: Frame | None) -> tuple[Camera, npt.NDArray[np.float32]] | None:
-    """Return camera and depth of the frame before in a turn."""
-    if frame is None:
-        return None
-    if not isinstance(frame, Frame) or not frame.has("depth"):
-        found = "a frame without depth" if isinstance(frame, Frame) else type(frame).__name__
-        raise SettingsError("before", found, "a Frame of a cut surface, with its depth, or None")
-    return frame.camera, frame.depth
 
 
 def _check_kind(tree: Any) -> None:
