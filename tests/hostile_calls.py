@@ -51,7 +51,7 @@ WRONG: list[Any] = [
 _LEFT_OUT = {"batch", "show", "set_threads", "devices", "get_threads", "evaluate"}
 #: Classes whose methods only store their arguments: errors, notes, results.
 _HELD = {"BatchSummary", "Device", "DeviceWarning", "Flag", "Gap", "Mend", "Ostium", "SeriesReport"}
-_HELD |= {"FlattenedSurface", "NetworkMap", "VolumePyramid"}
+_HELD |= {"Endoscopy", "FlattenedSurface", "NetworkMap", "VolumePyramid"}
 _HELD |= {"CenterlineComparison", "CrossSection", "Evaluation", "FeatureAggregation", "Frame", "LumenMap"}
 _HELD |= {"PlanarReformation", "Profile", "Reformation", "ScanDetails", "SpiralReformation", "Stenosis"}
 _HELD |= {"StraightenedVolume", "TangentialReformation", "Uncurled", "UntangledTree"}
@@ -153,6 +153,7 @@ class _Good:
             lumencut.cfa(v, one, pixel_spacing=1.0),
             lumencut.lumen_map(v, one, pixel_spacing=1.0),
             lumencut.spiral(v, one, pixel_spacing=1.0),
+            lumencut.endoscopy(v, one, 10.0, size=(24, 20)),
             lumencut.straightened_volume(v, one, 10, 1.0),
             lumencut.uncurl(v, one, camera, 0.5),
             lumencut.untangled(v, t, pixel_spacing=1.0),

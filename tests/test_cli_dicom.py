@@ -64,6 +64,7 @@ def test_views_are_one_series_in_their_order(line, tmp_path):
         ("cfa", "--beside", "cpr"),
         ("spiral",),
         ("uncurl", "--amount", "0.5"),
+        ("endoscopy", "--at", "5"),
     ],
 )
 @pytest.mark.parametrize("named", ["--anonymous", "--compress"])

@@ -89,6 +89,7 @@ def test_every_method_and_reformation_is_without_error(tmp_path):
         "cfa": lumencut.cfa(volume, LINE[0]),
         "spiral": lumencut.spiral(volume, LINE[0]),
         "uncurled": lumencut.uncurl(volume, LINE[0], camera, amount=0.5),
+        "endoscopy": lumencut.endoscopy(volume, LINE[0], 5.0, size=(200, 200)),
     }
     with_spacing = set()
     for name, one in made.items():

@@ -259,6 +259,8 @@ COMMANDS = {
     "network": ("-o", "a.dcm", *COARSE),
     "cfa": ("--beside", "cpr", "-o", "a.dcm", *COARSE),
     "uncurl": ("--frames", "2", "-o", "a.dcm"),
+    "endoscopy": ("--at", "5", "--size", "64x64", "-o", "a.dcm", "--no-annotate"),
+    "fly": ("--to", "2", "--fps", "2", "--size", "64x64", "-o", "a.dcm"),
     "measure": ("-o", "a.csv", "--dicom", "a", "--step", "2", "--fwhm", "0.9"),
 }
 

@@ -53,6 +53,8 @@ if TYPE_CHECKING:
     from lumencut.pictures.one_view import render
     from lumencut.pictures.renderer import Renderer
     from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
+    from lumencut.reformations.endoscopic_view import Endoscopy
+    from lumencut.reformations.endoscoping import endoscopy
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
@@ -130,6 +132,8 @@ _HOME = {
     "pictures.one_view": ("render",),
     "pictures.renderer": ("Renderer",),
     "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
+    "reformations.endoscoping": ("endoscopy",),
+    "reformations.endoscopic_view": ("Endoscopy",),
     "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
     "reformations.flattening": ("FlattenedSurface", "flatten"),
     "reformations.lumen_mapping": ("lumen_map",),
@@ -180,6 +184,7 @@ __all__ = [
     "Device",
     "DeviceError",
     "DeviceWarning",
+    "Endoscopy",
     "Evaluation",
     "FeatureAggregation",
     "FileError",
@@ -239,6 +244,7 @@ __all__ = [
     "cr",
     "cross_section",
     "devices",
+    "endoscopy",
     "evaluate",
     "find_vessels",
     "fitted_turn",

@@ -43,6 +43,9 @@ async function choose(viewer: Viewer, asked: Reformation): Promise<void> {
     await choice(viewer, 'How far the vessel is straightened (percent)').fill(percent);
   } else if (asked.kind === 'map') {
     await choice(viewer, 'What the map shows').selectOption(asked.of);
+  } else if (asked.kind === 'endoscopy') {
+    await choice(viewer, 'Lens').selectOption(asked.lens);
+    await choice(viewer, 'look back').setChecked(asked.backwards);
   }
 }
 
@@ -54,6 +57,7 @@ for (const row of table.reformations) {
     const viewer = await opened(browser, row.phantom, {
       ...('vessel' in asked && { vessel: asked.vessel }),
       ...('angle' in asked && { angle: asked.angle }),
+      ...('at' in asked && { place: asked.at }),
     });
     await choose(viewer, asked);
     const expected = await decoded(viewer, `${row.name}.png`);
@@ -85,6 +89,29 @@ for (const row of table.reformations) {
     await viewer.close();
   });
 }
+
+test('the wheel moves the eye of an endoscopy with the section, and a click leaves both where they are', async ({
+  browser,
+}) => {
+  const viewer = await opened(browser, 'stenosis', { place: 20 });
+  await choice(viewer, 'Reformation').selectOption('endoscopy');
+  const axes = viewer.page.locator('.reformed .axes');
+  await expect(axes).toContainText('20.0 mm from its start');
+  await viewer.wheel([120, 100], 300, 'straightened');
+  await expect(axes).not.toContainText('20.0 mm from its start');
+  const place = (await viewer.state()).place ?? 0;
+  expect(place).toBeGreaterThan(20);
+  await expect(axes).toContainText(`${place.toFixed(1)} mm from its start`);
+  const before = (await viewer.state()).hair;
+  await viewer.click([40, 40], 'straightened');
+  await expect.poll(async () => (await viewer.state()).hair).not.toEqual(before);
+  expect((await viewer.state()).place).toBe(place);
+  await choice(viewer, 'look back').check();
+  await viewer.rest();
+  await viewer.screenshot('reformation-endoscopy-back');
+  viewer.expectNoFault();
+  await viewer.close();
+});
 
 test('a click in a CFA picks the point that it shows, and a CPR that follows the lumen has no angle', async ({
   browser,

@@ -9,6 +9,9 @@ const CHOSEN: Chosen = {
   angle: 0.3,
   amount: 0.25,
   of: 'radius',
+  at: 12.5,
+  lens: 'fisheye',
+  backwards: true,
 };
 
 test('the request of each reformation contains only what it needs', () => {
@@ -18,6 +21,8 @@ test('the request of each reformation contains only what it needs', () => {
   expect(reformationOf('uncurl', CHOSEN)).toEqual({ kind: 'uncurl', vessel: 2, side, amount: 0.25 });
   expect(reformationOf('spiral', CHOSEN)).toEqual({ kind: 'spiral', vessel: 2, angle: 0.3 });
   expect(reformationOf('map', CHOSEN)).toEqual({ kind: 'map', vessel: 2, of: 'radius' });
+  const eye = { at: 12.5, lens: 'fisheye', backwards: true };
+  expect(reformationOf('endoscopy', CHOSEN)).toEqual({ kind: 'endoscopy', vessel: 2, ...eye });
 });
 
 test('none is requested before there is a vessel, or a view if it needs one', () => {

@@ -99,3 +99,48 @@ impl Curved {
         &self.slab_direction
     }
 }
+
+/// A ray per pixel from a common origin.
+#[derive(Clone, Debug)]
+pub struct Rays {
+    size: [usize; 2],
+    origin: DVec3,
+    direction: Vec<Vec3>,
+    span: Vec<[f32; 2]>,
+}
+
+impl Rays {
+    /// `direction` holds the unit vector of every pixel, row by row from the top, and `span` where its ray starts and ends (mm
+    /// from `origin`, a world point). A ray whose direction is zero shows nothing. Fails with [`ErrorKind::Camera`] if `size` has
+    /// no pixels or does not match the number of directions or spans.
+    pub fn new(size: [usize; 2], origin: DVec3, direction: Vec<Vec3>, span: Vec<[f32; 2]>) -> Result<Self> {
+        let pixels = size[0] * size[1];
+        if pixels == 0 || direction.len() != pixels || span.len() != pixels {
+            let found =
+                format!("{} directions and {} spans for {size:?} pixels", direction.len(), span.len());
+            let expected = "at least one pixel, with one direction and one span each";
+            return Err(Error::new(ErrorKind::Camera, "rays by pixel", found, expected));
+        }
+        Ok(Self { size, origin, direction, span })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// The world point from which all rays start (mm, LPS).
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// The unit vector of each pixel.
+    pub fn direction(&self) -> &[Vec3] {
+        &self.direction
+    }
+
+    /// Where the ray of each pixel starts and ends (mm from the origin).
+    pub fn span(&self) -> &[[f32; 2]] {
+        &self.span
+    }
+}

@@ -11,20 +11,20 @@ pub struct Shader {
 
 #[cfg(not(target_arch = "wasm32"))]
 macro_rules! shaders {
-    ($($room:literal),* $(,)?) => {
-        &[$(Shader { room: $room, text: include_str!(concat!($room, ".wgsl")) }),*]
+    ($($(#[$when:meta])? $room:literal),* $(,)?) => {
+        &[$($(#[$when])? Shader { room: $room, text: include_str!(concat!($room, ".wgsl")) }),*]
     };
 }
 
 /// Builds for browsers include the shaders without comments (`build.rs`).
 #[cfg(target_arch = "wasm32")]
 macro_rules! shaders {
-    ($($room:literal),* $(,)?) => {
-        &[$(Shader { room: $room, text: include_str!(concat!(env!("OUT_DIR"), "/", $room, ".wgsl")) }),*]
+    ($($(#[$when:meta])? $room:literal),* $(,)?) => {
+        &[$($(#[$when])? Shader { room: $room, text: include_str!(concat!(env!("OUT_DIR"), "/", $room, ".wgsl")) }),*]
     };
 }
 
-/// The shaders of all modules.
+/// The shaders of all modules. Browsers make endoscopies on the CPU.
 pub const SHADERS: &[Shader] = shaders![
     "math/accumulate",
     "math/blocks",
@@ -49,6 +49,8 @@ pub const SHADERS: &[Shader] = shaders![
     "math/tile",
     "math/trace",
     "math/transfer",
+    #[cfg(not(target_arch = "wasm32"))]
+    "math/tube",
     "math/view",
     "math/walk",
     "math/walls",
@@ -67,4 +69,6 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/rim",
     "stages/silhouette",
     "stages/surface",
+    #[cfg(not(target_arch = "wasm32"))]
+    "stages/wall",
 ];

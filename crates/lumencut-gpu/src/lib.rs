@@ -34,3 +34,5 @@ mod surface;
 mod tests;
 mod view;
 mod volume;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod wall;

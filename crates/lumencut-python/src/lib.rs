@@ -11,6 +11,7 @@ mod defaults;
 mod device;
 mod dicom;
 mod drags;
+mod endoscopy;
 mod errors;
 mod file_kinds;
 mod flattened;
@@ -77,6 +78,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(volume_file::nifti_units, module)?)?;
     module.add_function(wrap_pyfunction!(volume_file::fault_of_grid, module)?)?;
     module.add_function(wrap_pyfunction!(volume_file::volume_header, module)?)?;
+    module.add_class::<endoscopy::Endoscopy>()?;
+    module.add_class::<endoscopy::Inside>()?;
     module.add_class::<lumen_map::LumenMap>()?;
     module.add_class::<lumen_map::LumenWall>()?;
     module.add_class::<untangled::Untangled>()?;

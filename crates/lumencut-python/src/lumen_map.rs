@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use lumencut::endoscopy;
 use lumencut::error::Result;
 use lumencut::lumen_map::{self as maps, MapRequest};
 use lumencut::lumen_wall::{FoundWall, lumen_wall};
 use lumencut::math::centerline_path::CenterlinePath;
+use lumencut::measure::profile;
 use lumencut::named::Named;
 use lumencut::reformations::Layout as _;
 use lumencut::reformations::cpr::{Roll, Side, Straightened, View};
@@ -15,6 +17,7 @@ use lumencut::vessel_tree::Vessel;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
+use crate::endoscopy::Inside;
 use crate::errors::to_python;
 use crate::layout::Layout;
 use crate::measuring::Profile;
@@ -32,6 +35,7 @@ pub struct LumenWall {
     path: Arc<CenterlinePath>,
     view: View,
     found: FoundWall,
+    profile: Option<Arc<profile::Profile>>,
 }
 
 #[pymethods]
@@ -58,9 +62,22 @@ impl LumenWall {
             let path = Arc::new(CenterlinePath::new(&line, smoothing)?);
             let straightened = Straightened::new(Arc::clone(&path), &view)?;
             let found = lumen_wall(&volume, &vessel, &straightened, profile.as_deref())?;
-            Ok(Self { path, view, found })
+            Ok(Self { path, view, found, profile })
         };
         py.detach(|| pool::install(found))?.map_err(to_python)
+    }
+
+    /// The inside of the vessel, for all places of an eye.
+    fn inside(&self, py: Python<'_>) -> PyResult<Inside> {
+        let inside = || -> Result<_> {
+            let straightened = Straightened::new(Arc::clone(&self.path), &self.view)?;
+            endoscopy::Inside::new(
+                (Arc::clone(&self.path), straightened),
+                &self.found,
+                self.profile.as_deref(),
+            )
+        };
+        py.detach(|| pool::install(inside))?.map(Inside).map_err(to_python)
     }
 
     /// The lowest value that counts as calcium or metal; None if the vessel was not measured.
@@ -160,7 +177,7 @@ impl LumenMap {
             let place = [self.0.column(ostium.around), ostium.at / self.0.pixel_spacing()];
             (ostium.vessel, ostium.at, ostium.point.to_array(), place)
         };
-        Ok(maps::ostia(&self.0, &vessels).into_iter().map(row).collect())
+        Ok(maps::ostia(&maps::walls(&self.0), &vessels).into_iter().map(row).collect())
     }
 }
 

@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 
-/// The caption of a reformation. `number` is the amount of `uncurled`, the pitch (mm) of `spiral by arc`, or the radius (mm) at
-/// which a `map` is true to scale.
+/// The caption of a reformation. `number` is the amount of `uncurled`, the pitch (mm) of `spiral by arc`, the radius (mm) at which
+/// a `map` is true to scale, or the place (mm) of an `endoscopy`.
 #[pyfunction]
 #[pyo3(signature = (reformation, number=0.0))]
 pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
@@ -22,8 +22,9 @@ pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
         "spiral by arc" => Axes::SpiralByArc(number),
         "spiral by angle" => Axes::SpiralByAngle,
         "map" => Axes::Map(number),
+        "endoscopy" => Axes::Inside(number),
         other => {
-            let expected = "untangled, network, uncurled, spiral by arc, spiral by angle or map";
+            let expected = "untangled, network, uncurled, spiral by arc, spiral by angle, map or endoscopy";
             let error = Error::new(ErrorKind::Settings, "reformation", format!("'{other}'"), expected);
             return Err(to_python(error));
         }

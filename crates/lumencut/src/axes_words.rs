@@ -17,6 +17,8 @@ pub enum Axes {
     SpiralByAngle,
     /// The lumen map; the number is the radius (mm) at which the width of its columns is true to scale.
     Map(f64),
+    /// The endoscopy; the number is the place of the eye (mm).
+    Inside(f64),
 }
 
 impl Axes {
@@ -47,6 +49,10 @@ impl Axes {
                 "Down: along the vessel, in mm. Across: once around the wall, true to scale {} mm from the centre.",
                 fixed(radius, 1)
             ),
+            Self::Inside(at) => format!(
+                "From inside the vessel, {} mm from its start; white: calcium or metal. Sizes are not to scale.",
+                fixed(at, 1)
+            ),
         }
     }
 }
@@ -59,6 +65,7 @@ mod tests {
     fn numbers_stand_in_the_words_as_readers_write_them() {
         assert!(Axes::Uncurled(0.25).words().contains("straightened by 25 %"));
         assert!(Axes::SpiralByArc(1.25).words().ends_with("width = area / 1.25 mm."));
+        assert!(Axes::Inside(41.26).words().contains("41.3 mm from its start"));
         assert!(Axes::Map(6.0).words().contains("true to scale 6.0 mm from"));
     }
 }

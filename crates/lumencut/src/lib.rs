@@ -17,6 +17,7 @@ pub mod devices;
 pub mod doubted_scan;
 mod doubted_unit;
 pub mod drags;
+pub mod endoscopy;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod file_kinds;

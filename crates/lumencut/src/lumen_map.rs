@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 use lumencut_core::error::Result;
 use lumencut_core::math::centerline_path::CenterlinePath;
-use lumencut_core::reformations::Layout;
-use lumencut_core::reformations::cpr::View;
+use lumencut_core::reformations::cpr::{Straightened, View};
 use lumencut_core::reformations::lumen_map::{LumenMap, LumenMapParameters};
+use lumencut_core::reformations::{Layout, Wall};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
@@ -74,6 +74,11 @@ pub fn calcium_level([lumen, around]: [f64; 2]) -> f64 {
     (lumen + TOO_BRIGHT * (lumen - around)).max(MIN_CALCIUM_HU)
 }
 
+/// The wall that a map shows.
+pub fn walls(map: &LumenMap) -> Walls<'_> {
+    Walls { straightened: map.straightened(), wall: map.wall_table() }
+}
+
 /// For each pixel, the thickness (mm) of what exceeds a level between two distances beyond the wall (mm). NaN outside the volume
 /// and at openings of the wall.
 pub fn thickness(
@@ -134,8 +139,17 @@ pub struct Ostium {
     pub point: DVec3,
 }
 
-/// The ostia of other vessels on the mapped one, by vessel id. Vessels that run along it or lie inside its wall have none.
-pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
+/// The wall of a vessel in its straightened space.
+#[derive(Clone, Copy)]
+pub struct Walls<'a> {
+    /// The straightened space in which the wall is known.
+    pub straightened: &'a Straightened,
+    /// The wall.
+    pub wall: &'a Wall,
+}
+
+/// The ostia of other vessels on one with this wall, by vessel id. Vessels that run along it or lie inside its wall have none.
+pub fn ostia(map: &Walls, vessels: &[Vessel]) -> Vec<Ostium> {
     let found = |(vessel, other): (usize, &Vessel)| {
         let mut points = other.points().to_vec();
         let near = |point: DVec3| WallCoordinates::of(map, point).is_some_and(|place| place.hangs(map));
@@ -166,18 +180,18 @@ struct WallCoordinates {
 }
 
 impl WallCoordinates {
-    fn of(map: &LumenMap, point: DVec3) -> Option<Self> {
-        let straight = map.straightened().straightened_from_world(point);
+    fn of(map: &Walls, point: DVec3) -> Option<Self> {
+        let straight = map.straightened.straightened_from_world(point);
         let offset = straight.truncate();
-        let is_along = (0.0..=map.straightened().length()).contains(&straight.z);
+        let is_along = (0.0..=map.straightened.length()).contains(&straight.z);
         is_along.then(|| Self { at: straight.z, around: offset.to_angle(), away: offset.length() })
     }
 
-    fn wall(&self, map: &LumenMap) -> f64 {
-        map.wall_at(self.at, self.around)
+    fn wall(&self, map: &Walls) -> f64 {
+        map.wall.radius(self.at, self.around)
     }
 
-    fn hangs(&self, map: &LumenMap) -> bool {
+    fn hangs(&self, map: &Walls) -> bool {
         self.away <= ATTACHED.0 * self.wall(map) + ATTACHED.1
     }
 }

@@ -179,6 +179,13 @@ fn median_radius(vessel: &Vessel, profile: &Profile) -> Option<f64> {
     median(&mut measured).or_else(|| known_radius(vessel))
 }
 
+/// Arc lengths (mm) on a line of this length, and the usable levels there.
+pub(crate) fn usable_levels(profile: &Profile, length: f64) -> Vec<(f64, [f64; 2])> {
+    let usual = median_levels(profile);
+    let places = profile.arc_length.iter().map(|at| at * length / profile.length());
+    places.zip(profile.levels.iter().copied()).filter(|(_, levels)| is_alike(*levels, usual)).collect()
+}
+
 fn median_levels(profile: &Profile) -> Option<[f64; 2]> {
     let of = |n: usize| {
         let mut levels: Vec<f64> =

@@ -16,6 +16,7 @@ mod draft;
 mod editing;
 mod edits;
 pub mod failure;
+mod from_inside;
 pub mod held_volume;
 mod histogram;
 mod hung;

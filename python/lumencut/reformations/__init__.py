@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from lumencut.base.public_names import public_name
 
 if TYPE_CHECKING:
+    from lumencut.reformations.endoscopic_view import Endoscopy
+    from lumencut.reformations.endoscoping import endoscopy
     from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
     from lumencut.reformations.flattening import FlattenedSurface, flatten
     from lumencut.reformations.lumen_mapping import lumen_map
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from lumencut.reformations.untangling import untangled
 
 __all__ = [
+    "Endoscopy",
     "FeatureAggregation",
     "FlattenedSurface",
     "LumenMap",
@@ -41,6 +44,7 @@ __all__ = [
     "cfa",
     "cpr",
     "cr",
+    "endoscopy",
     "flatten",
     "lumen_map",
     "mpcpr",

@@ -137,22 +137,31 @@ class LumenMapRequest(ReformationRequest):
 
     def of(self, renderer: Renderer, vessel: Vessel) -> LumenMap:
         """Return the map of a vessel in the window of a renderer."""
-        grid, profile = self._volume(renderer, vessel), self.profile
+        grid = self._volume(renderer, vessel)
         choice(SettingsError, "mode of the lumen map", self.mode, MODES)
-        if not isinstance(profile, (Profile, type(None))):
-            raise MeasuringError("profile of the lumen map", type(profile).__name__, "a Profile or None")
-        if not isinstance(self.tree, (VesselTree, type(None))):
-            raise VesselTreeError("tree of the lumen map", type(self.tree).__name__, "a VesselTree or None")
         asked = self.checked(pixel_spacing=pixel_side(grid))
         low, high = asked["band"]
         if not -1e3 <= low < high <= 1e3:
             found = f"from {low:g} to {high:g} mm"
             raise SettingsError("band of the lumen map", found, "two distances that rise, within 1000 mm")
-        known = profile or _measured(grid, vessel, self.tree)
-        core, smooth = None if known is None else known._core, asked["smoothing"]
-        wall = _lumencut.LumenWall(grid, (vessel.points, vessel.radius), smooth, asked["up"], core)
+        wall, known = found_wall(grid, vessel, self, asked)
         given = flat_settings(self.settings, Slab(high - low, self.show))
         return LumenMap(MappedVessel(renderer, wall, known, self.tree), given, self.mode, asked)
+
+
+def found_wall(
+    volume: Any, vessel: Vessel, asked: Any, checked: dict[str, Any]
+) -> tuple[_lumencut.LumenWall, Profile | None]:
+    """Return the wall of a vessel for a request with checked parameters, and the profile, if any."""
+    profile, tree = asked.profile, asked.tree
+    if not isinstance(profile, (Profile, type(None))):
+        raise MeasuringError(f"profile of the {asked.subject}", type(profile).__name__, "a Profile or None")
+    if not isinstance(tree, (VesselTree, type(None))):
+        raise VesselTreeError(f"tree of the {asked.subject}", type(tree).__name__, "a VesselTree or None")
+    known = profile or _measured(volume, vessel, tree)
+    core = None if known is None else known._core
+    arrays = (vessel.points, vessel.radius)
+    return _lumencut.LumenWall(volume, arrays, checked["smoothing"], checked["up"], core), known
 
 
 def _measured(volume: Any, vessel: Vessel, tree: VesselTree | None) -> Profile | None:

@@ -125,8 +125,11 @@ class Reformation:
         return core.with_other_volume(), volume.part(places, reach, self.pixel_spacing)
 
     def _look(self, settings: Settings, *images: str) -> dict[str, Any]:
+        return self._shown(self._core, settings, *images)
+
+    def _shown(self, layout: _lumencut.Layout, settings: Settings, *images: str) -> dict[str, Any]:
         core, volume = self._source
-        made: dict[str, Any] = core.look(volume, self._core, checked(settings), list(images))
+        made: dict[str, Any] = core.look(volume, layout, checked(settings), list(images))
         self.timings = made.pop("timings")
         return made
 

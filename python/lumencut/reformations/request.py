@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 HEAD = (0.0, 0.0, 1.0)
 
 #: Parameters that must be one of these names.
-_NAMES = ("keep", "mode", "roll", "sampling", "show")
+_NAMES = ("backwards", "keep", "lens", "mode", "roll", "sampling", "show")
 
 #: The shapes of parameters with several numbers.
-_SHAPES = {"up": (3,), "normal": (3,), "root": (3,), "band": (2,)}
+_SHAPES = {"up": (3,), "normal": (3,), "root": (3,), "band": (2,), "size": (2,)}
 
 
 class ReformationRequest:

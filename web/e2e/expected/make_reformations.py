@@ -61,6 +61,9 @@ def made(scene: Any, asked: dict[str, Any], size: list[int], settings: Settings)
         return lumencut.uncurl(scene.volume, vessel, fitted_uncurling(camera, vessel), asked["amount"], **how)
     if kind == "spiral":
         return spiral_of(scene, vessel, asked["angle"], size, settings)
+    if kind == "endoscopy":
+        how = {"backwards": asked["backwards"], "tree": scene.tree, "device": "cpu"}
+        return lumencut.endoscopy(scene.volume, vessel, asked["at"], asked["lens"], size=tuple(size), **how)
     first = lumencut.lumen_map(scene.volume, vessel, asked["of"], tree=scene.tree, **how)
     side_of_pixels = filling((2 * math.pi * first.mean_radius, vessel.length), size)
     return lumencut.lumen_map(

@@ -1,6 +1,15 @@
 /** Controls of reformations other than the straightened CPR. */
-import type { MapOf, Reformation } from '../core/messages';
-import { chooseMap, mapOf, setUncurled, uncurled } from '../state/reformation';
+import type { LensOf, MapOf, Reformation } from '../core/messages';
+import {
+  chooseLens,
+  chooseMap,
+  lensOf,
+  lookBack,
+  looksBack,
+  mapOf,
+  setUncurled,
+  uncurled,
+} from '../state/reformation';
 
 const MAPS: readonly (readonly [MapOf, string])[] = [
   ['wall', 'brightest value at the wall'],
@@ -39,6 +48,28 @@ export function ReformationControls({ kind }: { readonly kind: Reformation['kind
           </option>
         ))}
       </select>
+    );
+  }
+  if (kind === 'endoscopy') {
+    return (
+      <>
+        <select
+          aria-label="Lens"
+          value={lensOf.value}
+          onChange={(event) => chooseLens(event.currentTarget.value as LensOf)}
+        >
+          <option value="perspective">perspective</option>
+          <option value="fisheye">fisheye</option>
+        </select>
+        <label>
+          <input
+            type="checkbox"
+            checked={looksBack.value}
+            onChange={(event) => lookBack(event.currentTarget.checked)}
+          />
+          look back
+        </label>
+      </>
     );
   }
   return null;

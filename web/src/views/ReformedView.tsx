@@ -9,10 +9,18 @@ import { attempt } from '../output/save-actions';
 import { FlatPicture } from '../pane/FlatPicture';
 import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
-import { placeAnswer } from '../state/cross-hair';
+import { moveAlong, placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import { profiles } from '../state/profiles';
-import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
+import {
+  lensOf,
+  looksBack,
+  mapOf,
+  reformationOf,
+  reformationTitle,
+  setUncurled,
+  uncurled,
+} from '../state/reformation';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { NamedScale } from './NamedScale';
@@ -33,6 +41,9 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
     angle: store.cprAngle.value,
     amount: uncurled.value,
     of: mapOf.value,
+    at: store.pickedPlace.value,
+    lens: lensOf.value,
+    backwards: looksBack.value,
   });
   const window = store.window_.value;
   const text = message && JSON.stringify(message);
@@ -84,7 +95,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
           {text && size && shown && (
             <NamedScale
               size={size}
-              spacing={shown.pixel_spacing}
+              spacing={kind === 'endoscopy' ? null : shown.pixel_spacing}
               isNamed={kind !== 'untangled' && kind !== 'network'}
             />
           )}
@@ -97,7 +108,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
           <button
             type="button"
             onClick={() =>
-              attempt(() => savePane('straightened', kind === 'network' ? kind : `${kind}-cpr`, shown.words))
+              attempt(() => savePane('straightened', isCpr(kind) ? `${kind}-cpr` : kind, shown.words))
             }
           >
             Save picture
@@ -153,11 +164,15 @@ function useHair(shown: ReformedPicture | null): Pair | null {
   return hair;
 }
 
+const isCpr = (kind: Reformation['kind']) => kind !== 'network' && kind !== 'endoscopy';
+
 function handlersOf(kind: Reformation['kind'], [left, top]: Pair) {
   const point = ([x, y]: Pair) =>
     attempt(() => {
       const pixel: Pair = [x - left - 0.5, y - top - 0.5];
-      return placeAnswer(engine.ask('pick_reformed', { pixel }), 'straightened');
+      // The eye of an endoscopy stays in its section.
+      const from = kind === 'endoscopy' ? 'section' : 'straightened';
+      return placeAnswer(engine.ask('pick_reformed', { pixel }), from);
     });
   return {
     drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),
@@ -165,6 +180,8 @@ function handlersOf(kind: Reformation['kind'], [left, top]: Pair) {
     scroll: (steps: number) => {
       if (kind === 'uncurl') {
         setUncurled(uncurled.value + steps * 0.02);
+      } else if (kind === 'endoscopy') {
+        moveAlong(looksBack.value ? -steps : steps);
       } else {
         store.turnCpr(steps);
       }

@@ -54,6 +54,8 @@ pub(crate) mod tile;
 pub(crate) mod trace;
 #[doc(hidden)]
 pub mod transfer;
+#[doc(hidden)]
+pub mod tube;
 pub(crate) mod walk;
 #[doc(hidden)]
 pub mod walls;

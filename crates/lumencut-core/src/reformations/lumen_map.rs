@@ -101,9 +101,9 @@ impl LumenMap {
         self.each(0.0, stop, |at, around| self.wall.radius(at, around))
     }
 
-    /// The radius of the wall (mm) at an arc length (mm), in a direction (radians).
-    pub fn wall_at(&self, at: f64, around: f64) -> f64 {
-        self.wall.radius(at, around)
+    /// The wall by arc length and direction.
+    pub fn wall_table(&self) -> &Wall {
+        &self.wall
     }
 
     /// Whether each pixel lies in the opening of a branch, where no wall was met.

@@ -4,6 +4,7 @@ mod connections;
 pub mod cpr;
 pub mod cr;
 mod cut_locus;
+pub mod endoscopy;
 pub mod flatten;
 mod found;
 mod layout;

@@ -32,6 +32,8 @@ pub mod silhouette;
 #[doc(hidden)]
 pub mod surface;
 mod table;
+#[doc(hidden)]
+pub mod wall;
 
 pub use table::{Image, ImageSet, Stage};
 

@@ -9,7 +9,7 @@ use lumencut_core::math::context_parameters::Gathering;
 use lumencut_core::math::reduce::Reduction;
 use lumencut_core::math::{
     accumulate, blocks, cell_walk, cubic, hierarchy, lanes, leaps, light, projection, ray, sampling,
-    thickness, transfer, walls,
+    thickness, transfer, tube, walls,
 };
 use lumencut_core::settings;
 use lumencut_core::shaders::{SHADERS, Shader};
@@ -89,6 +89,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
         "math/thickness": thickness::ROOT_HALF, consts::LOG2_E, consts::LN_2;
         "math/tile": cut_surface::QUAD, cut_surface::TILES, cut_surface::TILES_ACROSS;
         "math/transfer": transfer::INVISIBLE;
+        "math/tube": tube::AROUND, tube::NEWTON, tube::SHORTEST, tube::LONGEST, tube::REFINED, tube::EXACT, tube::MAX_STEPS, tube::LEAST;
         "math/walls": walls::MAX_LEAN;
         "stages/body": body::COLOR, body::EVERYWHERE, body::GLOW, body::LINE, body::GLOW_MM, consts::LOG2_E, ray::NONE;
         "stages/composite": composite::RIM_FADES;
@@ -119,7 +120,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
 }
 
 /// The constants that only shaders have, by module, with the reason.
-const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
+const ONLY_IN_SHADERS: [(&str, &str, &str); 15] = [
     ("math/blocks", "FARTHEST", "rays of the CPU skip whole segments and count no samples"),
     ("math/projection", "SPAN_THREADS", "the threads of a group"),
     ("math/projection", "LEVEL_THREADS", "the threads of a group"),
@@ -128,6 +129,9 @@ const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
     ("math/tile", "MAX_ROWS", "the size of an array of a thread"),
     ("math/tile", "MAX_QUADS", "the size of an array of a thread"),
     ("math/trace", "RUN", "how often a thread looks at the blocks, which changes no picture"),
+    ("math/tube", "NOTHING", "a kind of `Met`"),
+    ("math/tube", "WALL", "a kind of `Met`"),
+    ("math/tube", "OPENING", "a kind of `Met`"),
     ("math/window", "FAR_INTENSITY", "on the CPU a product may be infinite"),
     ("math/reduce", "STRETCH", "how often a thread looks at the blocks, which changes no picture"),
     ("math/reduce", "FEW", "the CPU adds up in float64"),

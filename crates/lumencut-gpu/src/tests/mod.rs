@@ -19,6 +19,7 @@ mod silhouette;
 mod surface;
 mod ties;
 mod volume;
+mod wall;
 
 use std::sync::{Arc, OnceLock};
 

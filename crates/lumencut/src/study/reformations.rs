@@ -9,6 +9,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::View;
+use lumencut_core::reformations::endoscopy::Endoscopy;
 use lumencut_core::reformations::lumen_map::LumenMap;
 use lumencut_core::reformations::spiral::{Sampling, Spiral, SpiralParameters};
 use lumencut_core::reformations::uncurl::Uncurl;
@@ -21,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::axes_words::Axes;
 use crate::defaults::{BAND_END, BAND_START, PIXEL_SIDES};
+use crate::endoscopy::Inside;
 use crate::lumen_map::{MapRequest, lumen_map};
 use crate::lumen_wall::FoundWall;
 use crate::spiral_lengths::{Room, spiral_pitch, spiral_reach};
@@ -81,15 +83,33 @@ pub(crate) enum ReformationMessage {
         vessel: usize,
         of: MapOf,
     },
+    /// The inside of a vessel, from a place on it.
+    Endoscopy {
+        vessel: usize,
+        /// Arc length (mm).
+        at: f64,
+        lens: LensOf,
+        /// Whether the eye looks towards the start of the vessel.
+        backwards: bool,
+    },
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(crate) enum LensOf {
+    Perspective,
+    Fisheye,
 }
 
 impl ReformationMessage {
     pub(crate) fn vessel(&self) -> Option<usize> {
         match self {
             Self::Untangled { .. } | Self::Network { .. } => None,
-            Self::Uncurl { vessel, .. } | Self::Spiral { vessel, .. } | Self::Map { vessel, .. } => {
-                Some(*vessel)
-            }
+            Self::Uncurl { vessel, .. }
+            | Self::Spiral { vessel, .. }
+            | Self::Map { vessel, .. }
+            | Self::Endoscopy { vessel, .. } => Some(*vessel),
         }
     }
 }
@@ -100,6 +120,8 @@ pub(crate) enum Laid {
     Spiral(Spiral),
     /// A map, and the lowest value that counts as calcium or metal in it.
     Map(LumenMap, Option<f64>),
+    /// A view from inside, and what all views of the vessel share.
+    Endoscopy(Endoscopy, Arc<Inside>),
 }
 
 impl Laid {
@@ -109,6 +131,7 @@ impl Laid {
             Self::Uncurl(layout, _) => layout,
             Self::Spiral(layout) => layout,
             Self::Map(layout, _) => layout,
+            Self::Endoscopy(layout, _) => layout,
         }
     }
 
@@ -118,13 +141,14 @@ impl Laid {
             Self::Uncurl(_, amount) => Axes::Uncurled(*amount),
             Self::Spiral(layout) => Axes::SpiralByArc(layout.parameters().pitch),
             Self::Map(layout, _) => Axes::Map(layout.parameters().mean_radius),
+            Self::Endoscopy(layout, _) => Axes::Inside(layout.eye().at),
         }
     }
 
     /// The arc length at a position (mm), if the row of the position shows a single place along a vessel.
     pub(super) fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
         match self {
-            Self::Untangled(_) | Self::Uncurl(..) => None,
+            Self::Untangled(_) | Self::Uncurl(..) | Self::Endoscopy(..) => None,
             Self::Spiral(_) | Self::Map(..) => Some(row * self.layout().pixel_spacing()),
         }
     }

@@ -10,11 +10,12 @@ use lumencut_core::settings::{RimValue, Settings, Slab, SlabMode};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
+use lumencut_vessels::measure::profile::Profile;
 use std::sync::Arc;
 
 use crate::along_vessels::Legend;
 use crate::axes_words::Axes;
-use crate::lumen_map::{ostia, thickness};
+use crate::lumen_map::{Ostium, ostia, thickness, walls};
 use crate::lumen_wall::{FoundWall, lumen_wall};
 use crate::network;
 use crate::study::failure::{Failure, Result};
@@ -37,9 +38,8 @@ impl Study {
         size: [usize; 2],
         (window, stop): ([f64; 2], Stop),
     ) -> Result<ReformedPicture> {
-        let kept = self.reformed.take().filter(|kept| kept.message == message);
-        let reformed = match kept {
-            Some(kept) if kept.size == size => kept,
+        let reformed = match self.reformed.take() {
+            Some(kept) if kept.message == message && kept.size == size => kept,
             kept => {
                 let laid = self.laid_out(&message, size, (kept.as_ref(), stop))?;
                 let value = self.values_of(&message, &laid, stop)?;
@@ -84,7 +84,7 @@ impl Study {
         Ok(match message {
             ReformationMessage::Untangled { side } | ReformationMessage::Network { side } => {
                 let before = before.and_then(|kept| match &kept.laid {
-                    Laid::Untangled(layout) => Some(layout),
+                    Laid::Untangled(layout) if kept.message == *message => Some(layout),
                     _ => None,
                 });
                 let none = || Failure::of_message("vessels of the untangled CPR", &"none", "one or more");
@@ -104,6 +104,9 @@ impl Study {
                 let level = found.levels.map(crate::lumen_map::calcium_level);
                 Laid::Map(map(&volume, (&path, &found), (*of, size), stop)?, level)
             }
+            ReformationMessage::Endoscopy { vessel, at, lens, backwards } => {
+                self.seen_inside((*vessel, *at), (*lens, *backwards, size), (before, stop))?
+            }
         })
     }
 
@@ -117,7 +120,7 @@ impl Study {
         {
             return Err(error);
         }
-        let profile = line.and_then(|line| self.profiles.any_of(line));
+        let profile = self.profile_of(number);
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let path = Arc::new(CenterlinePath::new(&Vessel::new(vessel.points().to_vec(), None)?, 0.0)?);
         let straightened = Straightened::new(Arc::clone(&path), &head_up())?;
@@ -125,8 +128,17 @@ impl Study {
         Ok((path, found))
     }
 
+    /// The last profile of a vessel, if it was measured.
+    pub(super) fn profile_of(&self, number: usize) -> Option<&Profile> {
+        let line = self.content.named.as_ref()?.lines.get(number).copied()?;
+        self.profiles.any_of(line)
+    }
+
     /// The value of each pixel: a value of the volume, or a length (mm); NaN if the pixel is empty.
     fn values_of(&self, message: &ReformationMessage, laid: &Laid, stop: Stop) -> Result<Vec<f32>> {
+        if let Laid::Endoscopy(layout, _) = laid {
+            return self.behind_wall(layout, stop);
+        }
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let of = match message {
             ReformationMessage::Map { of, .. } => Some(*of),
@@ -181,6 +193,10 @@ impl Study {
             let Legend { ends: [low, high], .. } = along.legend;
             words += &format!(" Colours: diameter from {low} mm (dark blue) to {high} mm (pale green).");
             network::drawn(laid, &along, stop)?
+        } else if let Laid::Endoscopy(layout, inside) = &reformed.laid {
+            let (pixels, doubts) = self.picture_inside((layout, &**inside), &reformed.value, stop)?;
+            words += &doubts;
+            pixels
         } else if is_length {
             let end = scale_end(&reformed.value);
             words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");
@@ -197,12 +213,17 @@ impl Study {
         let Some(named) = self.content.named.as_ref() else { return Vec::new() };
         let places: Vec<(usize, [f64; 2])> = match laid {
             Laid::Untangled(layout) => layout.ends().iter().map(DVec2::to_array).enumerate().collect(),
-            Laid::Map(layout, _) => ostia(layout, named.leveled.tree().vessels())
+            Laid::Map(layout, _) => ostia(&walls(layout), named.leveled.tree().vessels())
                 .iter()
                 .map(|one| {
                     (one.vessel, [layout.column(one.around), one.at / layout.parameters().pixel_spacing])
                 })
                 .collect(),
+            Laid::Endoscopy(layout, inside) => {
+                let ostia = inside.ostia(named.leveled.tree().vessels());
+                let mouth = |one: &Ostium| Some((one.vessel, inside.mouth(layout, one)?.to_array()));
+                ostia.iter().filter_map(mouth).collect()
+            }
             Laid::Uncurl(..) | Laid::Spiral(_) => Vec::new(),
         };
         let mark = |(vessel, pixel): (usize, [f64; 2])| {

@@ -86,7 +86,7 @@ fn branches_open_where_they_leave_the_wall() {
     let far = [[20.0, 0.0, 20.0], [30.0, 0.0, 20.0]];
     let itself = [[0.0, 0.0, 40.0], [0.0, 0.0, 0.0]];
     let tree = [&to_the_left[..], &far, &itself, &to_the_front].map(vessel);
-    let found = ostia(&map, &tree);
+    let found = ostia(&walls(&map), &tree);
     assert_eq!(found.iter().map(|ostium| ostium.vessel).collect::<Vec<_>>(), [0, 3]);
     assert!((found[0].at - 15.0).abs() < 1e-9 && found[0].around.abs() < 1e-9);
     assert!((found[1].at - 30.0).abs() < 1e-9 && (found[1].around.to_degrees() + 90.0).abs() < 1e-9);

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from lumencut.scene.vessel_tree import VesselTree
 
 #: Parameters that a recipe holds in radians and the command line in degrees.
-_ANGLES = ("angle", "overlap")
+_ANGLES = ("angle", "field_of_view", "overlap", "roll")
 
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
@@ -86,13 +86,15 @@ def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: Vessel
 
 
 def _requests() -> dict[str, Any]:
-    """Return the requests that show each vessel in separate rows, by the names of their commands."""
+    """Return the requests that show vessels one by one, by the names of their commands."""
+    from lumencut.reformations.endoscoping import EndoscopyRequest
     from lumencut.reformations.feature_aggregation import CfaRequest
     from lumencut.reformations.lumen_mapping import LumenMapRequest
     from lumencut.reformations.planar_reformation import CprRequest
     from lumencut.reformations.spiral_reformation import SpiralRequest
 
-    return {request.kind: request for request in (CprRequest, CfaRequest, SpiralRequest, LumenMapRequest)}
+    all_requests = (CprRequest, CfaRequest, SpiralRequest, LumenMapRequest, EndoscopyRequest)
+    return {request.kind: request for request in all_requests}
 
 
 def show_each(command: str, **given: Any) -> None:

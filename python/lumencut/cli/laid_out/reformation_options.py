@@ -65,3 +65,11 @@ LAST = (
     ),
     *(dicom_options, options.reading_options, look_options, verbose_option),
 )
+
+
+def command(
+    name: str, run: Any, summary: str, words: str, own: tuple[Any, ...], more: tuple[Any, ...] = ()
+) -> click.Command:
+    """A command: its function, its short and long help texts, and its options in the order of the help."""
+    parts = (*SCENE, *own, *LAST, *more)
+    return click.command(name, short_help=summary, help=words)(options.added(parts, run))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 import click
 
@@ -15,7 +14,8 @@ from lumencut.cli.laid_out.cfa import FEATURES, show_cfa
 from lumencut.cli.laid_out.cpr import MODES, show_cpr
 from lumencut.cli.laid_out.each import show_each
 from lumencut.cli.laid_out.flatten import show_flattened
-from lumencut.cli.laid_out.reformation_options import option
+from lumencut.cli.laid_out.inside_table import ENDOSCOPY, FLY
+from lumencut.cli.laid_out.reformation_options import command, option
 from lumencut.cli.laid_out.uncurl import show_uncurled
 from lumencut.cli.laid_out.untangled import show_network, show_untangled
 from lumencut.cli.parameters import SIZE, VECTOR, Parts
@@ -27,15 +27,7 @@ MAP_MODES = ("wall", "radius", "thickness", "shaded")
 VALUES = tuple(SETTINGS["rim"].choices)
 
 
-def _command(
-    name: str, run: Any, summary: str, words: str, own: tuple[Any, ...], more: tuple[Any, ...] = ()
-) -> click.Command:
-    """A command: its function, its short and long help texts, and its options in the order of the help."""
-    parts = (*shared.SCENE, *own, *shared.LAST, *more)
-    return click.command(name, short_help=summary, help=words)(options.added(parts, run))
-
-
-_CPR = _command(
+_CPR = command(
     "cpr",
     show_cpr,
     "Lay vessels out as images (CPR).",
@@ -102,7 +94,7 @@ _CPR = _command(
     ),
 )
 
-_CFA = _command(
+_CFA = command(
     "cfa",
     show_cfa,
     "Show all around vessels, straightened (CFA).",
@@ -137,7 +129,7 @@ _CFA = _command(
     ),
 )
 
-_SPIRAL = _command(
+_SPIRAL = command(
     "spiral",
     partial(show_each, "spiral"),
     "Show vessels as spirals of their sections (spiral CPR).",
@@ -177,7 +169,7 @@ _SPIRAL = _command(
     ),
 )
 
-_UNCURL = _command(
+_UNCURL = command(
     "uncurl",
     show_uncurled,
     "Show a vessel being straightened (film).",
@@ -217,7 +209,7 @@ _UNCURL = _command(
     (grey_option,),
 )
 
-_MAP = _command(
+_MAP = command(
     "map",
     partial(show_each, "map"),
     "Unroll the walls of vessels (lumen map).",
@@ -269,7 +261,7 @@ _MAP = _command(
     ),
 )
 
-_UNTANGLED = _command(
+_UNTANGLED = command(
     "untangled",
     show_untangled,
     "Show a vessel tree without overlap (untangled CPR).",
@@ -307,7 +299,7 @@ _UNTANGLED = _command(
     ),
 )
 
-_NETWORK = _command(
+_NETWORK = command(
     "network",
     show_network,
     "Map a vessel tree, coloured by diameter.",
@@ -330,7 +322,7 @@ _NETWORK = _command(
     ),
 )
 
-_FLATTEN = _command(
+_FLATTEN = command(
     "flatten",
     show_flattened,
     "Show the surface through several curves as a flat image.",
@@ -350,4 +342,4 @@ _FLATTEN = _command(
     ),
 )
 
-COMMANDS = (_CPR, _CFA, _SPIRAL, _UNCURL, _MAP, _UNTANGLED, _NETWORK, _FLATTEN)
+COMMANDS = (_CPR, _CFA, _SPIRAL, _UNCURL, _MAP, _UNTANGLED, _NETWORK, _FLATTEN, ENDOSCOPY, FLY)

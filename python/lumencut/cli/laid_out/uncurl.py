@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,21 +11,16 @@ import click
 from lumencut.cli import options
 from lumencut.cli.dicom import study_of
 from lumencut.cli.laid_out import each
+from lumencut.cli.laid_out.films import film, film_writer
 from lumencut.cli.like import typed
-from lumencut.cli.report import bar, say, timings
-from lumencut.errors import FormatError, SettingsError
+from lumencut.cli.report import say
 
 if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    from lumencut.dicom.writing.picture import Picture
     from lumencut.pictures.animation import Writer
     from lumencut.pictures.renderer import Renderer
     from lumencut.reformations.uncurling import Uncurled
     from lumencut.scene.camera import Camera
     from lumencut.scene.settings import Settings
-    from lumencut.scene.study import Study
     from lumencut.scene.vessel import Vessel
 
 
@@ -50,20 +44,12 @@ def show_uncurled(**given: Any) -> None:
 
 def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any]) -> Writer | None:
     """Return the writer of a film, or None for one picture; reject files that cannot be written."""
-    if amount is not None:
-        if dicom["grey"]:
-            raise click.UsageError("--grey does nothing with --amount; leave out one of them")
-        options.check_picture(output)
-        return None
-    from lumencut.pictures.animation import checked_fps, writer_for
-
-    try:
-        checked_fps(fps)
-        write = writer_for(output, dicom=dicom)
-    except (FormatError, SettingsError) as error:
-        raise click.UsageError(f"{error}; one picture needs --amount") from error
-    options.check_folder(output)
-    return write
+    if amount is None:
+        return film_writer(output, fps, dicom, "; one picture needs --amount")
+    if dicom["grey"]:
+        raise click.UsageError("--grey does nothing with --amount; leave out one of them")
+    options.check_picture(output)
+    return None
 
 
 def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
@@ -89,35 +75,8 @@ def _made(
     return asked.of(renderer, vessel)
 
 
-@dataclass(frozen=True)
-class _Picture:
-    """A frame of the film, in the form that the writers of animations accept."""
-
-    made: Uncurled
-    image: npt.NDArray[np.uint8]
-
-    @property
-    def camera(self) -> Camera:
-        return self.made.camera
-
-    def _png_options(self, **_: bool) -> dict[str, Any]:
-        return {}
-
-    def _study(self, study: Any, *, anonymous: bool, other_patient: bool) -> Study:
-        return self.made._study(study, anonymous=anonymous, other_patient=other_patient)
-
-    def _as_object(self, **labels: bool) -> Picture:
-        return replace(self.made._as_object(**labels), image=self.image)
-
-
 def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
-    """Yield the frames, opaque, while a progress bar moves."""
+    """Return the frames."""
     from lumencut.reformations.uncurling import uncurling
 
-    with bar("uncurl", "frame") as progress:
-        for done, made in enumerate(uncurling(first, frames), 1):
-            image = (made.annotated() if annotate else made.image).copy()
-            timings(f"frame {done}", made.timings)
-            image[..., 3] = 255
-            yield _Picture(made, image)
-            progress(done, frames)
+    return film("uncurl", uncurling(first, frames), frames, annotate=annotate)

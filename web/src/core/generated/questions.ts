@@ -350,6 +350,8 @@ export type Legend = {
   readonly colours: ReadonlyArray<Vector>;
 };
 
+export type LensOf = "perspective" | "fisheye";
+
 export type LineContent = {
   /** At least two points (mm, LPS). */
   readonly points: ReadonlyArray<Vector>;
@@ -652,6 +654,14 @@ export type Reformation = {
   readonly "kind": "map";
   readonly vessel: number;
   readonly of: MapOf;
+} | {
+  readonly "kind": "endoscopy";
+  readonly vessel: number;
+  /** Arc length (mm). */
+  readonly at: number;
+  readonly lens: LensOf;
+  /** Whether the eye looks towards the start of the vessel. */
+  readonly backwards: boolean;
 };
 
 export type ReformedPicture = {
