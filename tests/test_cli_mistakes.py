@@ -58,6 +58,8 @@ IDLE = [
     ("--no-silhouettes", "--silhouette-color ff0000", "without silhouettes", {"silhouette_color": (9, 9, 9)}),
     ("", "--silhouette-slope 2", "with --silhouette-rule leap", {"silhouette_slope": 0.1}),
     ("--no-silhouettes", "--far-rim 0.5", "without silhouettes", {"far_rim": 0.0}),
+    ("", "--rim-low 3", "without --rim", {"rim_low": 3.0}),
+    ("", "--rim-high 9", "without --rim", {"rim_high": 9.0}),
     ("--no-silhouettes", "--edge-samples 2", "without silhouettes", {"edge_samples": 1}),
     ("--paper", "--edge-samples 2", "with --silhouette-rule gradient", {"edge_samples": 2}),
     ("--samples 2", "--edge-samples 2", "with --samples", {"edge_samples": 1}),
@@ -122,6 +124,12 @@ def test_it_does_nothing_indeed(scene, first, given, why, changes):
     frames = [renderer.render(camera, one) for one in (settings, replace(settings, **changes))]
     np.testing.assert_array_equal(frames[0].image, frames[1].image)
     np.testing.assert_array_equal(frames[0].depth, frames[1].depth)
+
+
+def test_one_picture_does_not_turn(tmp_path):
+    words = told(invoke("render", "a.nii", "b.vtk", "-o", tmp_path / "out.png", "--turning-limit", "4"))
+    assert "--turning-limit does nothing in one picture" in words
+    assert "use turntable" in words
 
 
 CUT_SURFACE = [

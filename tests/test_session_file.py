@@ -13,6 +13,7 @@ from lumencut import (
     FormatError,
     Renderer,
     Settings,
+    TransferFunction,
     Window,
     measure,
     phantom,
@@ -31,10 +32,16 @@ CAMERA = {
     "size": [160, 120],
     "pixel_spacing": 0.6,
 }
+POINTS = [[100.0, [9, 200, 30], 0.0], [300.0, [255, 255, 255], 0.3]]
 VIEW = {
     "camera": CAMERA,
     "method": "csr",
-    "settings": {"window": [250.0, 700.0], "context": "mip", "context_window": [200.0, 800.0]},
+    "settings": {
+        "window": [250.0, 700.0],
+        "context": "mip",
+        "context_window": [200.0, 800.0],
+        "context_transfer": POINTS,
+    },
     "layout": "strip",
     "cross_hair": None,
     "picked": None,
@@ -137,7 +144,12 @@ def test_what_stands_beside_the_vessels(branches):
     assert is_session_file(branches[1])
     assert session.hidden == (2,)
     assert session.recipe.vessels == 2
-    settings = Settings(window=Window(250, 700), context="mip", context_window=Window(200, 800))
+    settings = Settings(
+        window=Window(250, 700),
+        context="mip",
+        context_window=Window(200, 800),
+        context_transfer=TransferFunction(POINTS),
+    )
     assert session.recipe.settings == settings
     assert session.recipe.camera == Camera(**{**CAMERA, "size": (160, 120)})
 
@@ -228,6 +240,7 @@ def test_markups_of_others_are_no_sessions(branches, tmp_path):
     [
         ({**VIEW, "method": "mpcpr"}, "a view by the method mpcpr"),
         ({**VIEW, "settings": {"levels": 99}}, "a view that cannot be rendered"),
+        ({**VIEW, "settings": {"context_transfer": [[1.0]]}}, "a view that cannot be rendered"),
         ({**VIEW, "settings": {"no_such": 1}}, "a view that cannot be rendered"),
         ({**VIEW, "camera": {**CAMERA, "pixel_spacing": -1}}, "a view that cannot be rendered"),
         ({**VIEW, "patient": "Doe"}, "unknown field"),

@@ -30,7 +30,7 @@ POINTS = TransferFunction([(-50.5, (0, 0, 0), 0), (300, (255, 128, 0), 0.25), (3
 
 
 #: Others exclude each other with these, or depend on them.
-LEFT_AS_IT_IS = ("context", "lumen_first", "distance_rule", "preserve_lumen")
+LEFT_AS_IT_IS = ("context", "lumen_first", "distance_rule", "preserve_lumen", "rim_high")
 
 
 def other(name):

@@ -681,6 +681,7 @@ class ValuesAlong:
     ) -> ValuesAlong: ...
     @property
     def legend(self) -> tuple[str, str, float, float, str]: ...
+    def ranged(self, low: float | None, high: float | None) -> ValuesAlong: ...
     def values(self) -> list[npt.NDArray[np.float32]]: ...
 
 @final
@@ -709,7 +710,9 @@ class Renderer:
         feature: tuple[str, float | None],
         pixel_spacing: float,
     ) -> tuple[npt.NDArray[np.float32], int]: ...
-    def details(self, camera: Any, settings: Settings) -> dict[str, npt.NDArray[np.float32]]: ...
+    def details(
+        self, camera: Any, settings: Settings, before: tuple[Any, npt.NDArray[np.float32]] | None = None
+    ) -> dict[str, npt.NDArray[np.float32]]: ...
     def render(
         self,
         volume: Any,
@@ -719,6 +722,7 @@ class Renderer:
         callback: Callable[[int, int], object] | None = None,
         method: tuple[Any, ...] | None = None,
         along: ValuesAlong | None = None,
+        before: tuple[Any, npt.NDArray[np.float32]] | None = None,
     ) -> dict[str, Any]: ...
     def strength(
         self, camera: Any, settings: Settings, method: tuple[Any, ...]

@@ -86,6 +86,7 @@ def surface_settings() -> Iterator[tuple[str, Values]]:
     yield from each("centerline_smoothing", (0.5, 2))
     yield from each("samples", (2, 3, 4))
     yield from each("edge_samples", (1, 2, 4))
+    yield from each("turning_limit", (1, 4))
 
 
 def picture_settings() -> Iterator[tuple[str, Values]]:
@@ -110,6 +111,8 @@ def picture_settings() -> Iterator[tuple[str, Values]]:
     slope: Values = {"depth_filter": False, "silhouette_rule": "gradient", "silhouette_slope": 4}
     yield "silhouettes on a filter-free surface", slope
     yield from each("rim", ("diameter",))
+    yield from each("rim_low", (2, 6), rim="diameter", rim_high=20)
+    yield from each("rim_high", (8, 30), rim="diameter", rim_low=1)
     yield "paper, rim diameter", {**PAPER, "rim": "diameter"}
     backgrounds = [(10, 200, 30, 128), (255, 255, 255, 0), (20, 40, 60, 255), (0, 0, 0, 1)]
     yield from each("background", backgrounds, context=None, opacity=SEE_THROUGH)

@@ -67,6 +67,24 @@ test('a drag at a grip moves the line, the list says so, and undo brings it back
   await viewer.close();
 });
 
+test('a grip in the straightened vessel moves the line sideways in its picture', async ({ browser }) => {
+  const viewer = await opened(browser);
+  await viewer.field('Layout').selectOption('strip');
+  await edit(viewer).click();
+  const middle = viewer.pane('straightened').getByRole('button', { name: 'Grip 3 of the line' });
+  await pull(viewer, middle, [10, 0]);
+  await viewer.screenshot('line-by-hand-straightened');
+  await viewer.page.mouse.up();
+  await expect(byHand(viewer)).toBeVisible();
+  await expect.poll(() => moved(viewer)).toBeGreaterThan(0.5);
+  await viewer.press('Control+z');
+  await middle.focus();
+  await viewer.press('Shift+ArrowRight');
+  await expect(byHand(viewer)).toBeVisible();
+  viewer.expectNoFault();
+  await viewer.close();
+});
+
 test('Escape ends a drag without a change, and then the grips', async ({ browser }) => {
   const viewer = await opened(browser);
   await edit(viewer).click();

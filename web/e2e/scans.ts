@@ -1,13 +1,13 @@
 /** Creates a scan file for page and command line: two separate tubes, one with a stenosis, in front of bone. */
 import { expect } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
-import { expectBegun, fileOf, type MadeFile, traced } from './controls';
+import { expectBegun, type MadeFile, traced } from './controls';
+import { nrrd } from './nrrd';
 import type { PaneName, Viewer } from './page';
 
 /** Numbers of voxels along the axes, and voxel size (mm); the centre of the volume is at 0. */
 const COUNTS = [80, 56, 90] as const;
 const SIDE = 0.8;
-const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
 
 /** Positions of the two tubes (mm to the patient's left), and depth of the bone (mm towards the back). */
 export const NARROWED = -12;
@@ -32,35 +32,16 @@ export const vertebra: Bone = (x, y, z) => {
 };
 
 /** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. `as` changes all values. */
-export function tubes(
+export const tubes = (
   name: string,
   shift = 0,
   bone: Bone = rod,
   as: (value: number) => number = (value) => value,
-): MadeFile {
-  const [columns, rows, slices] = COUNTS;
-  const values = new Int16Array(columns * rows * slices);
-  for (let n = 0; n < values.length; n++) {
-    const x = (n % columns) * SIDE - HALF[0];
-    const y = (Math.floor(n / columns) % rows) * SIDE - HALF[1];
-    const z = Math.floor(n / columns / rows) * SIDE - HALF[2];
+): MadeFile =>
+  nrrd(name, { counts: COUNTS, side: SIDE, middle: [0, 0, shift] }, (x, y, z) => {
     const inside = [radius(z) - Math.hypot(x - NARROWED, y), 3.5 - Math.hypot(x - STRAIGHT, y)];
-    values[n] = as(bone(x, y, z) ?? lumen(Math.max(...inside)));
-  }
-  const axis = (n: number) => `(${[0, 1, 2].map((m) => (m === n ? SIDE : 0)).join()})`;
-  const header = [
-    'NRRD0004',
-    'type: int16',
-    'dimension: 3',
-    'space: left-posterior-superior',
-    `sizes: ${COUNTS.join(' ')}`,
-    `space directions: ${[0, 1, 2].map(axis).join(' ')}`,
-    `space origin: (${[-HALF[0], -HALF[1], shift - HALF[2]].join()})`,
-    'endian: little',
-    'encoding: raw',
-  ];
-  return fileOf(name, Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]));
-}
+    return as(bone(x, y, z) ?? lumen(Math.max(...inside)));
+  });
 
 /** Brightness of a projection at a place (mm to the patient's left, at half the height). */
 export async function brightness(viewer: Viewer, x: number): Promise<number> {

@@ -333,3 +333,18 @@ test('a second scan that the memory cannot hold is refused with a remedy; the fi
   viewer.expectNoFault();
   await viewer.close();
 });
+
+test('a scan next to itself is recognised, and another scan is not', async ({ browser }) => {
+  const viewer = await opened(browser, filesAt('later', LATER));
+  const same = viewer.page.getByText('Both are the same scan.');
+  await openOther(viewer, filesAt('earlier', EARLIER));
+  await expect(same).toHaveCount(0);
+  await button(viewer, 'Close other scan').click();
+  await openOther(viewer, filesAt('copy', LATER));
+  await expect(same).toBeVisible();
+  await button(viewer, 'Compare the vessel').click();
+  await expect(viewer.page.getByText('both profiles are equal in every section')).toBeVisible();
+  await viewer.screenshot('same-scan');
+  viewer.expectNoFault();
+  await viewer.close();
+});

@@ -1,5 +1,6 @@
 /** Makes scans of a curved vessel at two times: its stenosis has grown, and the patient lies elsewhere. */
 import { fileOf, type MadeFile } from './controls';
+import { nrrd } from './nrrd';
 
 type Point = readonly [number, number, number];
 
@@ -38,29 +39,8 @@ function valueAt([x, y, z]: Point, narrowest: number): number {
   return 40 + 310 * Math.min(Math.max(0.5 + depth / SIDE, 0), 1);
 }
 
-export function scanAt(name: string, { narrowest, shift }: Time): MadeFile {
-  const [columns, rows, slices] = COUNTS;
-  const middle = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
-  const values = new Int16Array(columns * rows * slices);
-  for (let n = 0; n < values.length; n++) {
-    const index = [n % columns, Math.floor(n / columns) % rows, Math.floor(n / columns / rows)];
-    const place = index.map((count, axis) => count * SIDE - (middle[axis] ?? 0)) as [number, number, number];
-    values[n] = valueAt(place, narrowest);
-  }
-  const axis = (n: number) => `(${[0, 1, 2].map((m) => (m === n ? SIDE : 0)).join()})`;
-  const header = [
-    'NRRD0004',
-    'type: int16',
-    'dimension: 3',
-    'space: left-posterior-superior',
-    `sizes: ${COUNTS.join(' ')}`,
-    `space directions: ${[0, 1, 2].map(axis).join(' ')}`,
-    `space origin: (${shift.map((part, n) => part - (middle[n] ?? 0)).join()})`,
-    'endian: little',
-    'encoding: raw',
-  ];
-  return fileOf(name, Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]));
-}
+export const scanAt = (name: string, { narrowest, shift }: Time): MadeFile =>
+  nrrd(name, { counts: COUNTS, side: SIDE, middle: shift }, (...place) => valueAt(place, narrowest));
 
 export function lineAt(name: string, { shift }: Time): MadeFile {
   const places = Array.from({ length: 113 }, (_, n) => curve(-28 + n / 2));

@@ -2,46 +2,25 @@
 import { expect, type Locator, test } from '@playwright/test';
 import { dot } from '../src/core/vectors';
 import { button, fileOf, type MadeFile } from './controls';
+import { nrrd } from './nrrd';
 import { Viewer } from './page';
 
 const SIZE = { width: 1280, height: 800 };
 /** Numbers of voxels along the axes, and voxel size (mm). */
 const COUNTS = [60, 60, 90] as const;
 const SIDE = 0.6;
-const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
 /** Position of the tube (mm to the patient's left). If the scan were mirrored, the tube would lie outside. */
 const LEFT = 100;
 /** Semi-axes of the lumen (mm), right to left and front to back. */
 const AXES = [6, 3.5] as const;
 
 /** A scan of a tube with an elliptical lumen; on every ray the value at the wall is half way. */
-function tube(): MadeFile {
-  const [columns, rows, slices] = COUNTS;
-  const values = new Int16Array(columns * rows * slices);
-  for (let n = 0; n < values.length; n++) {
-    const x = (n % columns) * SIDE - HALF[0];
-    const y = (Math.floor(n / columns) % rows) * SIDE - HALF[1];
+const tube = (): MadeFile =>
+  nrrd('tube.nrrd', { counts: COUNTS, side: SIDE, middle: [LEFT, 0, 0] }, (x, y) => {
     const away = Math.hypot(x, y);
     const inside = away / Math.hypot(x / AXES[0], y / AXES[1]) - away;
-    values[n] = -50 + 400 * Math.min(Math.max(0.5 + inside / (2 * SIDE), 0), 1);
-  }
-  const axis = (n: number) => `(${[0, 1, 2].map((m) => (m === n ? SIDE : 0)).join()})`;
-  const header = [
-    'NRRD0004',
-    'type: int16',
-    'dimension: 3',
-    'space: left-posterior-superior',
-    `sizes: ${COUNTS.join(' ')}`,
-    `space directions: ${[0, 1, 2].map(axis).join(' ')}`,
-    `space origin: (${[LEFT - HALF[0], -HALF[1], -HALF[2]].join()})`,
-    'endian: little',
-    'encoding: raw',
-  ];
-  return fileOf(
-    'tube.nrrd',
-    Buffer.concat([Buffer.from(`${header.join('\n')}\n\n`), Buffer.from(values.buffer)]),
-  );
-}
+    return -50 + 400 * Math.min(Math.max(0.5 + inside / (2 * SIDE), 0), 1);
+  });
 
 function centerline(): MadeFile {
   const radius = Math.sqrt(AXES[0] * AXES[1]);

@@ -48,8 +48,8 @@ test('by mouse, from a scan file to the report', async ({ browser }) => {
   await viewer.screenshot('way-3-traced');
   await button(viewer, 'Done').click();
   await button(viewer, 'Measure').click();
-  // Within a stent the page names metal as the reason, and the user marks a place.
-  await expect(page.getByTestId('not-suggested')).toContainText('(metal');
+  // Within a stent no place is suggested; the page says so, and the user marks one.
+  await expect(page.getByTestId('not-suggested')).toContainText('sections that count has a doubt (metal');
   await page.getByRole('button', { name: 'Narrowest here' }).click();
   await expect(stenosis(viewer)).toHaveText(
     /^[\d.]+ ± [\d.]+ mm at [\d.]+ mm\. No percentage: mark a reference where the vessel is normal\./,

@@ -21,6 +21,7 @@ const edited = (document: Document, ...lost: number[]) => ({
   added: [],
   without_marks: lost,
   notes: [],
+  doubts: [],
   told: null,
 });
 

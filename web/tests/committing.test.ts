@@ -16,7 +16,15 @@ class Slow {
 
   private answer(onProgress: ((report: Progress) => void) | undefined): Promise<never> {
     this.onProgress = onProgress ?? this.onProgress;
-    const edited = { document: EMPTY, words: 'x', added: [], without_marks: [], notes: [], told: null };
+    const edited = {
+      document: EMPTY,
+      words: 'x',
+      added: [],
+      without_marks: [],
+      notes: [],
+      doubts: [],
+      told: null,
+    };
     const answer = { edited, report: null, lines: [], facts: [], pick: null };
     return new Promise((resolve) => {
       this.end = () => resolve(answer as never);

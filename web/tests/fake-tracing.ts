@@ -114,6 +114,7 @@ export class FakeTracing implements Asked {
       added: ids.filter((id) => !before.includes(id)),
       without_marks: before.filter((id) => !ids.includes(id)),
       notes: this.notes,
+      doubts: [],
       told: null,
     };
   }
@@ -193,6 +194,7 @@ export function reportOf(lines: readonly NamedLine[]): Report {
     smallest_side: 1,
     pixel_side: 0.25,
     scan: '',
+    doubt: null,
     notes: [],
     contours: [],
   } as const;

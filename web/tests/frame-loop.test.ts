@@ -89,8 +89,8 @@ describe('at rest', () => {
     expect(lasts()).toEqual([false, false, true]);
     const plain = { levels: 3, edge_samples: 1 };
     expect(engine.asked[0]?.settings).toEqual({ ...plain, context_preview: true, samples: 1 });
-    expect(engine.asked[1]).toEqual({ ...VIEW, settings: plain });
-    expect(engine.asked[2]?.settings).toEqual({ ...plain, samples: 2 });
+    expect(engine.asked[1]).toEqual({ ...VIEW, settings: { ...plain, turning_limit: null } });
+    expect(engine.asked[2]?.settings).toEqual({ ...plain, turning_limit: null, samples: 2 });
     expect(vi.getTimerCount()).toBe(0);
   });
 

@@ -70,6 +70,7 @@ test('the ray of a pixel runs along the view direction through every point seen 
     smallest_side: 1,
     pixel_side: 0.25,
     scan: '',
+    doubt: null,
     notes: [],
     contours: [],
   } as const;

@@ -42,6 +42,7 @@ const shown = (line: number): Report => ({
     smallest_side: 1,
     pixel_side: 0.25,
     scan: '',
+    doubt: null,
     notes: [],
   },
   vessels: [{ line, name: '', length: 50, has_radius: true }],

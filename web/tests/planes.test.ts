@@ -32,6 +32,7 @@ const VOLUME: VolumeReport = {
   smallest_side: 1,
   pixel_side: 0.25,
   scan: '',
+  doubt: null,
   notes: [],
 };
 const THROUGH: Vector = [3, -11, 7];

@@ -88,6 +88,7 @@ test('of the first vessels found, the root of the main tree is picked and shown 
         added: [1, 2, 3],
         without_marks: [],
         notes: [],
+        doubts: [],
         told: null,
       },
       report: null,

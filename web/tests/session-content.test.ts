@@ -19,6 +19,7 @@ const REPORT: Report = {
     smallest_side: 0.5,
     pixel_side: 0.25,
     scan: '',
+    doubt: null,
     notes: [],
   },
   vessels: [],

@@ -75,6 +75,7 @@ function edited({ document, edit }: EditRequest): object {
     added: [],
     without_marks: [],
     notes: [],
+    doubts: [],
     told: null,
   };
   return { edited: after, report: null, lines: [], facts: factsAmong(vessels), pick: null };

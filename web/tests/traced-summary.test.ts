@@ -22,6 +22,7 @@ const edited = (vessel: DocumentVessel, told: Told | null) => ({
   added: [],
   without_marks: [],
   notes: [],
+  doubts: [],
   told,
 });
 

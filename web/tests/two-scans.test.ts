@@ -12,6 +12,7 @@ import {
   comparison,
   endComparison,
   isOtherEarlier,
+  isSameScan,
   keepComparison,
   linkAll,
   links,
@@ -34,6 +35,7 @@ const OTHER: OtherScan = {
   count: 1,
   name: 'earlier',
   grid: { size: [2, 3, 4], world_from_index: [[1, 0, 0, 0]] },
+  values: '[1,2]',
   corners: [],
   lines: [7],
   isHounsfield: true,
@@ -151,4 +153,17 @@ test('a session keeps order and pairs until its other scan is open again', () =>
   keepComparison(saved);
   store.report.value = { volume: {}, vessels: [], windows: null } as unknown as Report;
   expect(savedComparison()).toBeNull();
+});
+
+test('a scan next to itself is recognised by its grid and values', () => {
+  const volume = OTHER.grid as unknown as Report['volume'];
+  store.report.value = { volume, vessels: [], windows: null } as unknown as Report;
+  const histogram = (counts: number[]) =>
+    ({ low: 0, high: 1, counts }) as unknown as typeof store.histogram.value;
+  store.histogram.value = histogram([3, 4]);
+  takeOther({ ...OTHER, values: JSON.stringify(histogram([3, 4])) });
+  expect(isSameScan.value).toBe(true);
+  store.histogram.value = histogram([3, 5]);
+  expect(isSameScan.value).toBe(false);
+  store.histogram.value = null;
 });

@@ -15,6 +15,7 @@ use crate::stages::depth::{PLACES_ACROSS, entry_of_place};
 use crate::stages::focus::{LINES, SURFACE, Shares};
 use crate::stages::leap::Side;
 use crate::stages::silhouette::{SilhouetteParameters, silhouette_at};
+use crate::stages::steady::SteadyParameters;
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
 
@@ -58,7 +59,7 @@ impl CpuRenderer {
         offsets: &[[f64; 2]],
     ) -> Result<EdgeSamples> {
         let settings = &*request.settings.for_vessels(tree.tree().vessels().len())?;
-        let request = &Request { settings, progress: None, ..*request };
+        let request = &Request { settings, progress: None, ..*request }.continued();
         let mut clock = Clock::start();
         self.prepare(tree, settings);
         self.project(request.camera, settings);
@@ -122,11 +123,18 @@ impl EdgeView<'_> {
     fn samples(&self, offsets: &[[f64; 2]]) -> Result<Vec<Vec<Sample>>> {
         let is_own = self.request.settings.level_choice == LevelChoice::Own;
         let stages = if is_own { &[Stage::Depth][..] } else { &[Stage::Distance, Stage::Depth] };
-        let Images { unfiltered_depth: depth, vessel, sheet, .. } =
+        let Images { unfiltered_depth: depth, vessel, sheet, foot, .. } =
             self.run(stages, &self.tiles(&self.pixels, offsets))?;
+        let Request { settings, camera, before, .. } = *self.request;
+        let held = before.and_then(|before| {
+            Some((SteadyParameters::new(settings, camera, &before)?, before.seen_by(camera)))
+        });
         let sample = |n: usize, k: usize| {
             let at = entry_of_place(k * offsets.len() + n);
-            Sample { depth: depth[at], side: Side::new(depth[at], vessel[at], sheet[at]) }
+            let shown = held.as_ref().map_or(depth[at], |(steady, before)| {
+                steady.depth(depth[at], foot[at][1], before[self.pixels[k] as usize])
+            });
+            Sample { depth: shown, side: Side::new(depth[at], vessel[at], sheet[at]) }
         };
         let of_offset = |n| (0..self.pixels.len()).map(|k| sample(n, k)).collect();
         Ok((0..offsets.len()).map(of_offset).collect())
@@ -155,9 +163,10 @@ impl EdgeView<'_> {
             work: self.work([PLACES_ACROSS * COLUMNS, tiles.len() / PLACES_ACROSS * ROWS]),
             surface: pass.surface.at(tiles),
             has_sheet: true,
-            wanted: ImageSet::of(&[]),
+            wanted: ImageSet::of(if self.request.before.is_some() { &[Image::Before] } else { &[] }),
             settings: self.request.settings,
             colors: None,
+            before: None,
         };
         for stage in stages {
             pass.run(*stage, &mut images)?;

@@ -27,6 +27,7 @@ use crate::settings::Settings;
 use crate::stages::composite::{CompositeParameters, Layers, composite};
 use crate::stages::depth::{CutSurface, Sheet};
 use crate::stages::rim::RimColors;
+use crate::stages::steady::{Before, SteadyParameters};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::Stop;
 
@@ -45,12 +46,22 @@ pub struct Request<'a> {
     pub progress: Option<&'a Progress>,
     /// Colours along the vessels, which the setting `rim` needs.
     pub rim: Option<&'a RimColors>,
+    /// The view before in a turn, which the setting `turning_limit` holds on to.
+    pub before: Option<Before<'a>>,
 }
 
 impl<'a> Request<'a> {
     /// A request for all images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
-        Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None, rim: None }
+        Self {
+            camera,
+            settings,
+            images: ImageSet::ALL,
+            stop: &|| false,
+            progress: None,
+            rim: None,
+            before: None,
+        }
     }
 
     /// The settings adapted to the vessels of the scene, checked. Fails with [`ErrorKind::Settings`] for a
@@ -87,6 +98,17 @@ impl<'a> Request<'a> {
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
         Self { images, ..self }
+    }
+
+    /// Also asks for the depth of the view before, if this one continues its turn.
+    #[must_use]
+    pub fn continued(self) -> Self {
+        let before = self.before.filter(|before| {
+            let is_whole = before.depth.len() == before.camera.size().iter().product::<usize>();
+            is_whole && SteadyParameters::new(self.settings, self.camera, before).is_some()
+        });
+        let more = if before.is_some() { &[Image::Before][..] } else { &[] };
+        Self { before, images: self.images.and(ImageSet::of(more)), ..self }
     }
 
     fn begin_view(&self, scene: &Scene) {
@@ -142,7 +164,7 @@ impl CpuRenderer {
     /// [`Request::settings_for`], and with [`ErrorKind::Volume`] for a scene without volume and tree.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
-        let request = &Request { settings: &settings, ..*request };
+        let request = &Request { settings: &settings, ..*request }.continued();
         request.begin_view(scene);
         let frame = match &scene.tree {
             Some(tree) => self.cut_surface(tree, &request.without_unseen_picture(scene))?,
@@ -163,7 +185,8 @@ impl CpuRenderer {
         let settings = &Settings { occlusion: 0.0, ..settings };
         self.prepare(tree, settings);
         self.project(request.camera, settings);
-        SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
+        let request = Request { settings, images: SurfaceDetails::WANTED, ..*request }.continued();
+        SurfaceDetails::of(&self.pass(&request))
     }
 
     /// Strength of the silhouettes, 0 to 1, of a reformation's frame with [`crate::stages::Image::Leap`];
@@ -241,7 +264,7 @@ impl CpuRenderer {
 
     /// The input of the cut-surface stages, after the levels are projected.
     pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
-        let &Request { camera, settings, images, stop, progress, rim } = request;
+        let &Request { camera, settings, images, stop, progress, rim, before } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);
         CutSurfacePass {
             work: Work { size: camera.size(), isa: self.isa, stop, progress },
@@ -250,6 +273,7 @@ impl CpuRenderer {
             wanted: images,
             settings,
             colors: rim,
+            before,
         }
     }
 }

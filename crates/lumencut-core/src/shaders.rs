@@ -68,6 +68,7 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/occlusion",
     "stages/rim",
     "stages/silhouette",
+    "stages/steady",
     "stages/surface",
     #[cfg(not(target_arch = "wasm32"))]
     "stages/wall",

@@ -26,5 +26,6 @@ mod rim;
 mod scene;
 mod settings;
 mod stages;
+mod steady;
 mod table;
 mod three_tiers;

@@ -238,8 +238,11 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
         assert_eq!(frame.image[pixel(&frame, x, y)][0], expected, "at {x}, {y}");
     }
     let names: Vec<_> = frame.timings.iter().map(|t| t.stage).collect();
-    let expected: Vec<_> =
-        Stage::ALL.into_iter().filter(|stage| *stage != Stage::Rim).map(Stage::name).collect();
+    let expected: Vec<_> = Stage::ALL
+        .into_iter()
+        .filter(|s| ![Stage::Steady, Stage::Rim].contains(s))
+        .map(Stage::name)
+        .collect();
     assert_eq!(names, expected);
 }
 

@@ -51,7 +51,8 @@ fn stages_run_in_the_order_of_the_table() {
 
 #[test]
 fn every_image_is_written_before_it_is_read() {
-    let mut made = ImageSet::of(&[]);
+    // The request has the depth of the view before.
+    let mut made = ImageSet::of(&[Image::Before]);
     for stage in whole(&Settings {
         focus: Some(Focus::default()),
         rim: Some(RimValue::Diameter),

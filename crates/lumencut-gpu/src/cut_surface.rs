@@ -38,8 +38,8 @@ pub(crate) struct CutSurfaceStages {
     /// Compiled when needed.
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
-    /// A stage for each combination of distance rule, level choice, *lumen first* and details; compiled when needed.
-    depth: [[[[Option<Stage>; 4]; 2]; 2]; 2],
+    /// A stage for each combination of rules that was needed.
+    depth: Vec<(DepthRules, Stage)>,
     parameters: Buffer,
     /// The layout of the levels that was written last.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
@@ -58,7 +58,7 @@ impl CutSurfaceStages {
             distance: Stage::new(device, "stages/distance", &tile),
             focus: OnceLock::new(),
             focus_parameters: device.image("focus parameters", 1, size_of::<FocusParameters>()),
-            depth: Default::default(),
+            depth: Vec::new(),
             group: [across * QUAD * TILES_ACROSS, rows * TILES / TILES_ACROSS],
             written_layout: None,
             parameters: device.uniform::<CutSurfaceParameters>("cut surface parameters"),
@@ -134,37 +134,27 @@ impl CutSurfaceStages {
         depth: &Buffer,
     ) {
         let Images { size, distance, vessel, .. } = images;
-        let details = match rules.details {
-            Details::None | Details::Sheet => &images.sheet,
-            Details::Blend | Details::Foot => &images.gathered,
+        // No buffer may be bound twice; a foot is not written together with a blend.
+        let (details, foot) = match rules.details {
+            Details::None | Details::Sheet => (&images.sheet, &images.gathered),
+            Details::Blend => (&images.gathered, &images.sheet),
         };
-        let (slots, boxes, of_slot) = (&levels.slots, &levels.boxes, &levels.vessel_of_slot);
+        let (slots, boxes) = (&levels.slots, &levels.boxes);
         let last = if rules.is_own { &levels.spans } else { distance };
         let parameters = self.parameters.clone();
-        let all = [view, &parameters, slots, boxes, of_slot, depth, vessel, details, &levels.projected, last];
+        let all = [view, &parameters, slots, boxes, foot, depth, vessel, details, &levels.projected, last];
         let groups = groups(*size, self.group);
         let stage = self.depth_stage(recording.device, rules);
         recording.run(stage, &all.map(Buffer::as_entire_binding), groups);
     }
 
     fn depth_stage(&mut self, device: &Device, rules: DepthRules) -> &Stage {
-        let DepthRules { whole_curve, is_own, lumen_first, details } = rules;
-        let [curve, own, lumen] = [whole_curve, is_own, lumen_first].map(usize::from);
-        self.depth[curve][own][lumen][details as usize].get_or_insert_with(|| {
-            let [across, rows] = tile_of(device).map(|n| n as f64);
-            let switch = |is| f64::from(u8::from(is));
-            let constants = [
-                ("ACROSS", across),
-                ("ROWS", rows),
-                ("WHOLE_CURVE", switch(whole_curve)),
-                ("LUMEN_FIRST", switch(lumen_first)),
-                ("HAS_SHEET", switch(details == Details::Sheet)),
-                ("HAS_BLEND", switch(details == Details::Blend)),
-                ("HAS_FOOT", switch(details == Details::Foot)),
-            ];
-            let entry = if is_own { "depth" } else { "nearest" };
-            Stage::entry(device, "stages/depth", entry, &constants)
-        })
+        let known = self.depth.iter().position(|(known, _)| *known == rules);
+        let at = known.unwrap_or_else(|| {
+            self.depth.push((rules, rules.stage(device)));
+            self.depth.len() - 1
+        });
+        &self.depth[at].1
     }
 }
 
@@ -174,7 +164,6 @@ pub(crate) enum Details {
     None,
     Sheet,
     Blend,
-    Foot,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,20 +172,21 @@ pub(crate) struct DepthRules {
     pub is_own: bool,
     pub lumen_first: bool,
     pub details: Details,
+    pub has_foot: bool,
 }
 
 impl DepthRules {
-    /// The runs of the stage: one for each of sheet, blend and foot that is needed.
+    /// The runs of the stage: one for each of sheet and blend that is needed.
     pub(crate) fn of(request: &Request) -> Vec<Self> {
         let &Request { settings, images, .. } = request;
         let needed = [
             (Details::Sheet, Table::has_sheet(settings, images)),
             (Details::Blend, Table::has_blend(images)),
-            (Details::Foot, Table::has_foot(settings, images)),
         ];
         let mut wanted: Vec<_> =
             needed.iter().filter(|(_, is_needed)| *is_needed).map(|(details, _)| *details).collect();
-        if wanted.is_empty() {
+        let has_foot = Table::has_foot(settings, images);
+        if wanted.is_empty() || (has_foot && wanted == [Details::Blend]) {
             wanted.push(Details::None);
         }
         let run = |details: &Details| Self {
@@ -204,8 +194,25 @@ impl DepthRules {
             is_own: settings.level_choice == LevelChoice::Own,
             lumen_first: settings.lumen_first,
             details: *details,
+            has_foot: has_foot && *details != Details::Blend,
         };
         wanted.iter().map(run).collect()
+    }
+
+    fn stage(self, device: &Device) -> Stage {
+        let [across, rows] = tile_of(device).map(|n| n as f64);
+        let switch = |is| f64::from(u8::from(is));
+        let constants = [
+            ("ACROSS", across),
+            ("ROWS", rows),
+            ("WHOLE_CURVE", switch(self.whole_curve)),
+            ("LUMEN_FIRST", switch(self.lumen_first)),
+            ("HAS_SHEET", switch(self.details == Details::Sheet)),
+            ("HAS_BLEND", switch(self.details == Details::Blend)),
+            ("HAS_FOOT", switch(self.has_foot)),
+        ];
+        let entry = if self.is_own { "depth" } else { "nearest" };
+        Stage::entry(device, "stages/depth", entry, &constants)
     }
 }
 

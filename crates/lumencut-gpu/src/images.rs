@@ -16,6 +16,7 @@ pub(crate) struct Images {
     pub depth: Buffer,
     pub vessel: Buffer,
     pub sheet: Buffer,
+    pub before: Buffer,
     pub leap: Buffer,
     pub focus: Buffer,
     pub rim: Buffer,
@@ -49,6 +50,7 @@ impl Images {
             depth: number("depth"),
             vessel: number("vessel"),
             sheet: device.image("sheet", pixels, MAX_PIXEL_BYTES),
+            before: number("before"),
             leap: number("leap"),
             focus: device.image("focus", pixels, MAX_PIXEL_BYTES),
             rim: number("rim"),
@@ -73,6 +75,7 @@ impl Images {
             Image::Sheet => &self.sheet,
             // Never needed at the same time, see `Stage::has_blend` and `Stage::has_foot`.
             Image::Blend | Image::Foot | Image::Gathered => &self.gathered,
+            Image::Before => &self.before,
             Image::Leap => &self.leap,
             Image::Focus => &self.focus,
             Image::Rim => &self.rim,

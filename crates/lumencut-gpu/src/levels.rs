@@ -34,6 +34,7 @@ pub(crate) struct Point {
 pub(crate) struct Along {
     pub next: u32,
     pub arc_length: f32,
+    pub vessel: i32,
 }
 
 /// Has the layout of `Span` in `math/levels.wgsl`: the slots of one vessel at one level.
@@ -59,7 +60,7 @@ pub(crate) struct Projected {
     pub inverse_length: f32,
     pub arc_length: f32,
     pub stands: u32,
-    pub padding: u32,
+    pub vessel: i32,
 }
 
 /// Has the layout of `Slot` in `math/pieces.wgsl`.
@@ -133,7 +134,6 @@ pub(crate) struct DeviceLevels {
     pub projected: Buffer,
     pub slots: Buffer,
     pub boxes: Buffer,
-    pub vessel_of_slot: Buffer,
 }
 
 impl DeviceLevels {
@@ -168,7 +168,6 @@ impl DeviceLevels {
             projected: device.image("projected points", slots, size_of::<Projected>()),
             slots: device.upload("slots", &vec![Slot::EMPTY; all.bundles * FAN]),
             boxes: device.upload("boxes", &vec![NodeBox::EMPTY; all.boxes]),
-            vessel_of_slot: device.upload("vessels", &all.vessel_of_slot),
             all_spans: all.spans,
         })
     }
@@ -224,7 +223,6 @@ struct Arrays {
     spans: Vec<Span>,
     points: Vec<Point>,
     alongs: Vec<Along>,
-    vessel_of_slot: Vec<i32>,
     bundles: usize,
     boxes: usize,
 }
@@ -249,15 +247,15 @@ impl Arrays {
             end_chosen: 0,
         };
         self.spans.extend(level.first_slot.windows(2).map(span));
-        for ends in level.first_slot.windows(2) {
+        for (vessel, ends) in level.first_slot.windows(2).enumerate() {
             let [first, last] = [ends[0], ends[1] - 1].map(|slot| first_slot + slot);
             let along = |point: u32| Along {
                 next: (point + 1).min(last),
                 arc_length: level.arc_length[(point - first_slot) as usize],
+                vessel: vessel as i32,
             };
             self.alongs.extend((first..=last).map(along));
         }
-        self.vessel_of_slot.extend(&level.vessel_of_slot);
         let mut place = LevelLayout {
             first_slot,
             first_bundle: self.bundles as u32,

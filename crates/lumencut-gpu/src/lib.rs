@@ -29,6 +29,7 @@ pub mod screen;
 mod silhouette;
 pub mod stage;
 pub mod stages;
+mod steady;
 mod surface;
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests;

@@ -54,6 +54,10 @@ pub(crate) struct Pass<'a> {
 impl<'a> Pass<'a> {
     pub(crate) async fn cut_surface(&mut self) -> Result<()> {
         self.projection();
+        if let Some(before) = self.request.before {
+            self.device.write(self.buffer(Image::Before), &before.seen_by(self.request.camera));
+            self.made = self.made.and(ImageSet::of(&[Image::Before]));
+        }
         for stage in Stage::of_cut_surface(self.request.settings, self.request.images) {
             self.run(stage).await?;
         }
@@ -101,6 +105,7 @@ impl<'a> Pass<'a> {
         match stage {
             Stage::Distance => self.distance(),
             Stage::Depth => self.depth(),
+            Stage::Steady => self.steady(),
             Stage::Leap => self.leap(),
             Stage::DepthFilter => self.depth_filter(),
             Stage::Focus => self.focus(),
@@ -138,6 +143,12 @@ impl<'a> Pass<'a> {
         for rules in DepthRules::of(self.request) {
             cut_surface.depth(&mut self.recording, view, levels, rules, self.images, depth);
         }
+    }
+
+    fn steady(&mut self) {
+        let depth = self.buffer(Image::Depth);
+        let Stages { view, steady, .. } = &*self.stages;
+        steady.record(&mut self.recording, view, (self.images, depth), self.request);
     }
 
     fn leap(&mut self) {

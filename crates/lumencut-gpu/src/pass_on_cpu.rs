@@ -78,6 +78,8 @@ impl Pass<'_> {
             Image::Sheet => bytemuck::cast_slice(&images.sheet),
             Image::Blend => bytemuck::cast_slice(&images.blend),
             Image::Foot => bytemuck::cast_slice(&images.foot),
+            // No stage writes it.
+            Image::Before => &[],
             Image::Leap => bytemuck::cast_slice(&images.leap),
             Image::Focus => bytemuck::cast_slice(&images.focus),
             Image::Rim => bytemuck::cast_slice(&images.rim),
@@ -104,6 +106,8 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
         Image::Sheet => images.sheet = results.numbers(n),
         Image::Blend => images.blend = results.numbers(n),
         Image::Foot => images.foot = results.numbers(n),
+        // The request has it.
+        Image::Before => {}
         Image::Leap => images.leap = results.numbers(n),
         Image::Focus => images.focus = results.numbers(n),
         Image::Rim => images.rim = results.numbers(n),

@@ -100,7 +100,7 @@ impl GpuRenderer {
     /// same cases, and with [`lumencut_core::error::ErrorKind::Device`] if the GPU lacks memory or fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
-        let request = &Request { settings: &settings, ..*request };
+        let request = &Request { settings: &settings, ..*request }.continued();
         if scene.volume.is_none() && scene.tree.is_none() {
             return Err(nothing_to_show());
         }
@@ -118,7 +118,7 @@ impl GpuRenderer {
         screen: &mut Screen,
     ) -> Result<()> {
         let settings = request.settings_for(scene)?;
-        let request = &Request { settings: &settings, ..*request };
+        let request = &Request { settings: &settings, ..*request }.continued();
         if scene.volume.is_none() {
             return Err(nothing_to_show());
         }

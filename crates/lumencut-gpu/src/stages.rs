@@ -15,6 +15,7 @@ use crate::leap::Leap;
 use crate::occlusion::Occlusion;
 use crate::rim::Rim;
 use crate::silhouette::Silhouette;
+use crate::steady::Steady;
 use crate::surface::Surface;
 use crate::view::ViewParameters;
 use crate::volume::{DeviceVolume, GridParameters};
@@ -25,6 +26,7 @@ pub(crate) struct Stages {
     pub view: Buffer,
     pub grid: Buffer,
     pub cut_surface: CutSurfaceStages,
+    pub steady: Steady,
     pub leap: Leap,
     pub depth_filter: DepthFilter,
     pub occlusion: Occlusion,
@@ -43,6 +45,7 @@ impl Stages {
             view: device.uniform::<ViewParameters>("view"),
             grid: device.uniform::<GridParameters>("grid"),
             cut_surface: CutSurfaceStages::new(device),
+            steady: Steady::new(device),
             leap: Leap::new(device),
             depth_filter: DepthFilter::new(device),
             occlusion: Occlusion::new(device),

@@ -39,6 +39,11 @@ impl ValuesAlong {
         along_vessels::ValuesAlong::new(kind, &along).map(Self).map_err(to_python)
     }
 
+    /// The same values with other ends of the colours.
+    fn ranged(&self, low: Option<f64>, high: Option<f64>) -> PyResult<Self> {
+        self.0.clone().ranged([low, high]).map(Self).map_err(to_python)
+    }
+
     /// The quantity and its unit in words, the values of the first and the last colour, and the name of the colours.
     #[getter]
     fn legend(&self) -> (&'static str, &'static str, f64, f64, &'static str) {

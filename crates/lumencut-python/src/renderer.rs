@@ -18,10 +18,11 @@ use lumencut::progress::Progress;
 use lumencut::reformations::Layout as _;
 use lumencut::reformations::cr::CrParameters;
 use lumencut::scene::{LeveledTree, Scene, SharedVolume, VolumeKey};
+use lumencut::stages::steady::Before;
 use lumencut::stages::{Image, ImageSet};
 use lumencut::stop::Stop;
 use lumencut::volume::Volume;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -76,18 +77,22 @@ impl Renderer {
 
     /// Details of a cut surface, computed on the CPU: the strengths of silhouettes and far rim, and the arc length (mm) between the two positions
     /// that each pixel blends; infinite between two vessels.
+    #[pyo3(signature = (camera, settings, before=None))]
     #[allow(clippy::needless_pass_by_value)]
     fn details<'py>(
         &self,
         py: Python<'py>,
         camera: CameraArgument,
         settings: &Bound<'py, Checked>,
+        before: Option<BeforeArgument<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
+        let seen = before.as_ref().map(BeforeArgument::view).transpose()?;
+        let before = seen.as_ref().map(|(camera, depth)| Before { camera, depth });
         let all = PyDict::new(py);
         let Some(tree) = &self.tree else { return Ok(all) };
         let details = interruptible(py, None, |stop| {
-            let request = Request { stop, ..Request::new(&camera, settings) };
+            let request = Request { stop, before, ..Request::new(&camera, settings) };
             pool::install(|| CpuRenderer::default().details(tree, &request))?.map_err(to_python)
         })?;
         let [width, height] = camera.size();
@@ -127,8 +132,8 @@ impl Renderer {
     }
 
     /// The requested images of a view: the cut surface if there are vessels, the picture if there is a volume. `method` defaults to
-    /// the cut surface. `along` are the values of a rim. `callback` receives the number of finished parts, of `SHARES` in all, and `SHARES`.
-    #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None, along=None))]
+    /// the cut surface. `along` are the values of a rim. `before` is the view before in a turn. `callback` receives the number of finished parts, of `SHARES` in all, and `SHARES`.
+    #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None, along=None, before=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
         &self,
@@ -140,12 +145,15 @@ impl Renderer {
         callback: Option<Py<PyAny>>,
         method: Option<MethodArgument>,
         along: Option<&Bound<'py, ValuesAlong>>,
+        before: Option<BeforeArgument<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
         let colors = along.map(|along| along.get().0.rim().map_err(to_python)).transpose()?;
         let images = images.map_or(Ok(ImageSet::ALL), |names| image_set(&names))?;
         let method = method.map_or(Ok(Method::CutSurface), |method| method.method())?;
         let borrowed = volume.as_ref().map(VolumeArgument::borrow).transpose()?;
+        let seen = before.as_ref().map(BeforeArgument::view).transpose()?;
+        let before = seen.as_ref().map(|(camera, depth)| Before { camera, depth });
         let volume = match (&volume, &borrowed) {
             (Some(volume), Some(borrowed)) => {
                 Some(SharedVolume::new(volume.volume(borrowed)?, self.volume.clone()))
@@ -158,7 +166,7 @@ impl Renderer {
         let (frame, given_up) = interruptible(py, reporter.as_ref(), |stop| {
             let progress = reporter.as_ref().map(|reporter| reporter.progress);
             let rim = colors.as_ref();
-            let request = Request { camera: &camera, settings, images, stop, progress, rim };
+            let request = Request { camera: &camera, settings, images, stop, progress, rim, before };
             // The lock is taken outside the pool. A pool thread that waits for part of this view could start another view, and wait
             // for the lock that it holds itself. After an interrupted rendering, the next one overwrites all that it left.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
@@ -237,6 +245,16 @@ impl Renderer {
         let [width, height] = cpr.size();
         let value = PyArray1::from_vec(py, value).reshape([height, width])?;
         Ok((value, angle_count(cpr, pixel_spacing)))
+    }
+}
+
+/// A view before another in a turn: its camera, and the depth of its cut surface (mm).
+#[derive(FromPyObject)]
+struct BeforeArgument<'py>(CameraArgument, PyReadonlyArray2<'py, f32>);
+
+impl BeforeArgument<'_> {
+    fn view(&self) -> PyResult<(Camera, Vec<f32>)> {
+        Ok((self.0.camera()?, self.1.as_array().iter().copied().collect()))
     }
 }
 

@@ -93,10 +93,14 @@ fn slice(level: impl Fn(DVec2) -> f64) -> Vec<f64> {
 
 /// The profile of a vessel along z, `off` mm beside the middle.
 fn profile(off: f64, level: impl Fn(DVec2) -> f64) -> Profile {
-    let slice = slice(level);
+    profile_of(off, &[slice(level)])
+}
+
+fn profile_of(off: f64, parts: &[Vec<f64>]) -> Profile {
     let mut noise = noise();
+    let part = |k: usize| &parts[k * parts.len() / SIZE[2]];
     let values: Vec<f32> = (0..SIZE[2])
-        .flat_map(|_| slice.iter().map(|value| (value + noise()) as f32).collect::<Vec<_>>())
+        .flat_map(|k| part(k).iter().map(|value| (value + noise()) as f32).collect::<Vec<_>>())
         .collect();
     let strides = [1, SIZE[0], SIZE[0] * SIZE[1]];
     let scale = DAffine3::from_scale(DVec3::splat(SIDE));
@@ -158,4 +162,16 @@ fn no_second_lumen_without_a_whole_flap_or_in_a_neighbour() {
         assert!(found.area_both_lumens().iter().all(|area| area[0].is_nan()));
         assert_eq!(found.flap_stretch(), None);
     }
+}
+
+#[test]
+fn another_lumen_that_changes_sides_within_10_mm_is_a_neighbour() {
+    let flapped = |at: f64| Flapped { at, thickness: 1.0, levels: [350.0; 2], tear: 0.0 };
+    let part = |at: f64| slice(|place| flapped(at).level(place));
+    let changing = profile_of(0.0, &[part(4.0), part(-4.0), part(4.0)]);
+    assert_eq!(seen(&changing), Vec::<usize>::new());
+    let lasting = profile_of(0.0, &[part(4.0), part(4.0), part(-4.0)]);
+    let stretch = lasting.flap_stretch().unwrap();
+    assert!(lasting.other_lumen[stretch.widest].iter().all(|point| point.x > MIDDLE.x + 3.0));
+    assert!(stretch.ends[0] < 2.0 && stretch.ends[1] < 21.0, "{stretch:?}");
 }

@@ -3,9 +3,11 @@
 
 use js_sys::{Array, Date, Function, Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
+use lumencut::camera::Camera;
 use lumencut::devices::Wanted;
 use lumencut::pipeline::Request;
 use lumencut::screen::Screen;
+use lumencut::stages::steady::Before;
 use lumencut::stages::{Image, ImageSet};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use wasm_bindgen_futures::future_to_promise;
@@ -24,6 +26,8 @@ pub struct Engine {
     backend: Backend,
     screen: Option<Screen>,
     study: Study,
+    /// The last view and its depth (mm), if it is to be held while the view turns.
+    before: Option<(Camera, Vec<f32>)>,
 }
 
 type Thrown<T> = std::result::Result<T, JsValue>;
@@ -58,7 +62,7 @@ impl Engine {
     /// An engine without a study on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (also a
     /// software GPU). Fails with an error of kind `device` if a required GPU cannot be used.
     pub async fn open(device: &str) -> Thrown<Engine> {
-        Ok(Self { backend: backend(device).await?, screen: None, study: Study::default() })
+        Ok(Self { backend: backend(device).await?, screen: None, study: Study::default(), before: None })
     }
 
     /// "cpu", or the name of the GPU.
@@ -174,15 +178,24 @@ impl Engine {
     async fn rendered(&mut self, view: &View) -> Result<Option<Uint8ClampedArray>> {
         let View { camera, settings, method, rim } = view;
         let scene = self.study.scene()?;
-        let images = ImageSet::of(&[Image::Picture]);
+        let is_held = settings.turning_limit.is_some();
+        let images = if is_held { &[Image::Picture, Image::Depth][..] } else { &[Image::Picture] };
+        let images = ImageSet::of(images);
+        let last = self.before.take().filter(|_| is_held);
+        let before = last.as_ref().map(|(camera, depth)| Before { camera, depth });
         stopping::heard(stopping::VIEW);
         let stop = || stopping::is_asked(stopping::VIEW);
         let rim = rim.as_ref();
-        let request = Request { images, stop: &stop, rim, ..Request::new(camera, settings) };
-        match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
-            Drawn::OnScreen => Ok(None),
-            Drawn::Frame(frame) => Ok(Some(clamped(&frame.image.into_flattened()))),
-        }
+        let request = Request { images, stop: &stop, rim, before, ..Request::new(camera, settings) };
+        let (shown, depth) = match self.backend.draw(*method, &scene, &request, self.screen.as_mut()).await? {
+            Drawn::OnScreen(depth) => (None, depth),
+            Drawn::Frame(frame) => {
+                let depth = frame.depth().to_vec();
+                (Some(clamped(&frame.image.into_flattened())), depth)
+            }
+        };
+        self.before = is_held.then_some((*camera, depth));
+        Ok(shown)
     }
 }
 

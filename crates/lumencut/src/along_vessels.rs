@@ -43,7 +43,7 @@ pub struct Legend {
 }
 
 /// Values along the vessels of a tree.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ValuesAlong {
     /// Values of each vessel at equal steps of arc length from its start to its end, NaN where unknown.
     pub values: Vec<Vec<f32>>,
@@ -71,6 +71,19 @@ impl ValuesAlong {
             lengths: vessels.iter().map(Along::length).collect(),
             has_radius,
         })
+    }
+
+    /// The values with the ends of the colours that these settings choose. Fails with [`ErrorKind::Settings`] if the lower
+    /// end is not below the upper one.
+    pub fn ranged(mut self, [low, high]: [Option<f64>; 2]) -> Result<Self> {
+        let Legend { ends, unit, .. } = &mut self.legend;
+        *ends = [low.unwrap_or(ends[0]), high.unwrap_or(ends[1])];
+        if ends[0] < ends[1] {
+            return Ok(self);
+        }
+        let found = format!("{} to {} {unit}", ends[0], ends[1]);
+        Err(Error::new(ErrorKind::Settings, "colours of the rim", found, "rim_low below rim_high")
+            .mend("set both rim_low and rim_high, or neither"))
     }
 
     /// The colours of each vessel's values.

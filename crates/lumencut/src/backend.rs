@@ -29,8 +29,8 @@ fn wired<'a>(scene: &'a Scene<'_>, request: &Request<'_>) -> Option<&'a LeveledT
 /// The result of drawing a view.
 #[cfg(target_arch = "wasm32")]
 pub enum Drawn {
-    /// The view was drawn on the canvas.
-    OnScreen,
+    /// The view was drawn on the canvas; with its depth (mm) if it was asked for.
+    OnScreen(Vec<f32>),
     /// The view is returned to the caller.
     Frame(Frame),
 }
@@ -145,7 +145,7 @@ impl Backend {
         Ok(())
     }
 
-    /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves
+    /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a picture alone never leaves
     /// the GPU. Fails as [`Backend::render_by`] does, and with [`ErrorKind::Device`] even if the GPU is optional, so
     /// that the caller can choose the device.
     #[cfg(target_arch = "wasm32")]
@@ -157,10 +157,11 @@ impl Backend {
         mut screen: Option<&mut Screen>,
     ) -> Result<Drawn> {
         let has_samples = request.settings.samples > 1 || request.settings.edge_samples > 1;
-        let is_alone = method == Method::CutSurface && !has_samples && wired(scene, request).is_none();
+        let is_read = has_samples || request.images.has(Image::Depth);
+        let is_alone = method == Method::CutSurface && !is_read && wired(scene, request).is_none();
         if is_alone && let (Some(screen), Computer::Gpu(gpu)) = (screen.as_deref_mut(), &mut self.computer) {
             gpu.draw(scene, request, screen).await?;
-            return Ok(Drawn::OnScreen);
+            return Ok(Drawn::OnScreen(Vec::new()));
         }
         let (frame, lost) = self.render_by(method, scene, request).await?;
         if let Some(lost) = lost {
@@ -170,7 +171,7 @@ impl Backend {
             return Ok(Drawn::Frame(frame));
         };
         gpu.show(&frame, screen).await?;
-        Ok(Drawn::OnScreen)
+        Ok(Drawn::OnScreen(frame.depth().to_vec()))
     }
 
     /// Resolves once the GPU in use is lost; immediately if there is none.

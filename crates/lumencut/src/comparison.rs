@@ -8,6 +8,10 @@ use serde::Serialize;
 use crate::profile_json::document;
 use crate::text::{fixed, rounded};
 
+/// Diameters that differ by less in every section are equal (mm).
+const EQUAL_MM: f64 = 0.005;
+const SAME: &str = "both profiles are equal in every section: perhaps both are of one scan";
+
 /// Digits of the numbers of a table.
 const DIGITS: usize = 7;
 
@@ -30,7 +34,19 @@ impl Compared<'_> {
     /// The comparison in sentences: doubts, changes, the typical difference, and how the vessels were matched.
     pub fn lines(&self) -> Vec<String> {
         let typical = format!("median difference {} mm", signed(self.comparison.typical));
-        self.doubts.iter().cloned().chain(self.changes()).chain([typical, self.matched()]).collect()
+        let doubts = self.all_doubts().into_iter().map(str::to_owned);
+        doubts.chain(self.changes()).chain([typical, self.matched()]).collect()
+    }
+
+    pub(crate) fn all_doubts(&self) -> Vec<&str> {
+        self.doubts.iter().map(String::as_str).chain(self.is_of_one_scan().then_some(SAME)).collect()
+    }
+
+    /// Whether both profiles are equal but for the interpolation between sections: the noise of two scans differs.
+    fn is_of_one_scan(&self) -> bool {
+        let mut differences =
+            self.comparison.places.iter().map(|place| place.difference.abs()).filter(|one| one.is_finite());
+        differences.next().is_some_and(|first| first < EQUAL_MM) && differences.all(|one| one < EQUAL_MM)
     }
 
     /// The changes, one sentence each, or that there is none.
@@ -83,7 +99,7 @@ impl Compared<'_> {
         document(&Record {
             vessel: &self.vessel,
             scans: &self.scans,
-            doubts: &self.doubts,
+            doubts: self.all_doubts(),
             matched: self.matched(),
             along_uncertainty_mm: matching.deviation,
             typical_difference_mm: self.comparison.typical,
@@ -123,7 +139,7 @@ fn change(Change { range, largest }: &Change) -> String {
 struct Record<'a> {
     vessel: &'a str,
     scans: &'a [String; 2],
-    doubts: &'a [String],
+    doubts: Vec<&'a str>,
     matched: String,
     along_uncertainty_mm: f64,
     typical_difference_mm: f64,

@@ -164,7 +164,8 @@ mod tests {
 
     #[test]
     fn a_found_vessel_has_the_doubts_of_a_traced_one() {
-        let doubt = Doubt { words: "Doubtful from 3 mm on.".to_owned(), at: Some(3.0) };
+        let doubt =
+            Doubt { words: "Doubtful from 3 mm on.".to_owned(), kind: "turns too tightly", at: Some(3.0) };
         let vessels = vec![vessel(0, None), vessel(0, Some(TrackDoubt::Short))];
         let tree = found(Trees { vessels, ..Trees::default() }, &|_| vec![doubt.clone()]);
         assert_eq!(tree.vessels[0].doubts_of("Vessel 1"), ["Vessel 1: Doubtful from 3 mm on."]);

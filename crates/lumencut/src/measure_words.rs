@@ -9,7 +9,7 @@ use lumencut_vessels::measure::profile::outer_volume::OuterStretch;
 use lumencut_vessels::measure::profile::stretch::CArm;
 use lumencut_vessels::measure::section::flags::{LEFT_OUT, METAL};
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
-use lumencut_vessels::measure::wall::{CT_WALL, WallSource};
+use lumencut_vessels::measure::wall::{BRIGHT_WALL, CT_WALL, WallSource};
 
 use crate::flag_table::set_in;
 use crate::text::fixed;
@@ -119,6 +119,8 @@ pub fn of_wall(source: &WallSource) -> String {
             let others = if count == 1 { "vessel" } else { "vessels" };
             format!("{before}; {pooled} pooled with {count} other {others} of the tree")
         }
+        WallSource::Bright => format!("{} HU, as plaque: the values show it", level(BRIGHT_WALL)),
+        WallSource::PerhapsBright => format!("{}, or {} HU, as plaque", in_ct(), level(BRIGHT_WALL)),
         WallSource::NotAsked => "not separated, as requested".to_owned(),
         WallSource::DarkLumen => "not separated: the lumen is dark".to_owned(),
         WallSource::AsBright => "not separated: the surroundings are as bright".to_owned(),

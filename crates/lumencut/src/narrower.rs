@@ -6,8 +6,11 @@ use lumencut_vessels::measure::stenosis::suggestions::Spot;
 
 use crate::flag_table::FLAGS;
 
-pub(crate) const HINDRANCES: [(u32, &str); 3] =
-    [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "perhaps a flap"), (UNSURE, "unsure diameter")];
+pub(crate) const HINDRANCES: [(u32, &str); 3] = [
+    (CHANGE_OF_LUMEN, "change of lumen"),
+    (FLAP, "another lumen at an uneven wall"),
+    (UNSURE, "unsure diameter"),
+];
 
 /// The place that is narrower than the suggested one, and than the marked place `at` (mm), in one sentence.
 pub(crate) fn narrower(profile: &Profile, at: Option<f64>) -> Option<String> {

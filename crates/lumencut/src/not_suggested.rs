@@ -66,7 +66,7 @@ fn no_clear_wall(throat: Spot) -> String {
 
 fn only_thinner(end: Spot) -> String {
     format!(
-        "No narrowest place is suggested: the vessel tapers towards its end, to {:.2} mm at {:.1} mm. Mark it yourself.",
+        "No narrowest place is suggested: where sections are sure, the vessel only tapers, to {:.2} mm at {:.1} mm. Mark it yourself.",
         end.diameter, end.at
     )
 }

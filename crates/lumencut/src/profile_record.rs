@@ -157,6 +157,8 @@ fn stored_wall(source: &WallSource) -> (String, Vec<f64>) {
             let by_others = [by_others.level[0], by_others.level[1], by_others.vessels as f64];
             ("pooled", given.iter().flatten().copied().chain(by_others).collect())
         }
+        WallSource::Bright => ("bright", vec![]),
+        WallSource::PerhapsBright => ("perhaps bright", vec![]),
         WallSource::NotAsked => ("not asked", vec![]),
         WallSource::DarkLumen => ("dark lumen", vec![]),
         WallSource::OtherUnit => ("other unit", vec![]),
@@ -177,6 +179,8 @@ fn restored_wall((name, numbers): (&str, &[f64])) -> Result<WallSource> {
         ("pooled", [given, deviation, a, b, vessels]) => {
             pooled(Some([*given, *deviation]), [*a, *b], *vessels)
         }
+        ("bright", []) => Some(WallSource::Bright),
+        ("perhaps bright", []) => Some(WallSource::PerhapsBright),
         ("not asked", []) => Some(WallSource::NotAsked),
         ("dark lumen", []) => Some(WallSource::DarkLumen),
         ("other unit", []) => Some(WallSource::OtherUnit),

@@ -20,6 +20,7 @@ mod from_inside;
 pub mod held_volume;
 mod histogram;
 mod hung;
+mod known_names;
 mod labels;
 pub mod line_edits;
 mod line_facts;

@@ -85,6 +85,10 @@ def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines
         )
         why = "without CENTERLINES: there is no cut surface"
         _refuse(chosen, _CUT_SURFACE, why, "give CENTERLINES, or leave out")
+    if not {"degrees", "views"}.intersection(chosen):
+        _refuse(
+            chosen, ("turning_limit",), "in one picture, which does not turn", "use turntable, or leave out"
+        )
     for names, why, mend in (*_idle_context(settings), *_idle_rules(settings)):
         _refuse(chosen, names, why, f"{mend}, or leave out")
 
@@ -152,6 +156,8 @@ def _idle_rules(settings: Settings) -> Iterator[_Idle]:
         yield ("zone_filter", "depth_leap"), "without the depth filter", "give --depth-filter"
     if not settings.zone_filter:
         yield ("depth_leap",), "without the zone filter", "give --zone-filter"
+    if settings.rim is None:
+        yield ("rim_low", "rim_high"), "without --rim, whose colours it sets", "give --rim"
     if settings.rim != "diameter":
         yield ("measured",), "without --rim diameter: other rims always measure", "give --rim diameter"
     if settings.levels == 0:

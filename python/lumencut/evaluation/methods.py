@@ -22,6 +22,9 @@ from lumencut.scene.camera import Camera
 from lumencut.scene.checked_settings import checked
 from lumencut.scene.settings import Settings
 
+#: Views of one degree each that a held view follows.
+RUN_UP = 30
+
 
 @dataclass(frozen=True)
 class Method:
@@ -31,11 +34,11 @@ class Method:
     ----------
     settings : function of Settings
         Returns the settings of the method, given those of the caller.
-    surface : function of Renderer, Camera and Settings
+    surface : function of Renderer, Camera, Settings and the frame before in a turn
         Returns a frame with depth and vessel, and with values if there is a volume.
     picture : function of Renderer, Camera and Settings
         Returns a frame with a picture; needs a volume.
-    details : function of Renderer, Camera and Settings
+    details : function of Renderer, Camera, Settings and the frame before in a turn
         ``"sheet_gap"``, the arc length between the points that a pixel blends (mm), ``"strength"`` of the
         silhouettes and ``"rim"`` next to them (0 to 1), if the method has them.
     is_filtered : bool, default True
@@ -47,9 +50,9 @@ class Method:
     """
 
     settings: Callable[[Settings], Settings]
-    surface: Callable[[Renderer, Camera, Settings], Frame]
+    surface: Callable[[Renderer, Camera, Settings, Frame | None], Frame]
     picture: Callable[[Renderer, Camera, Settings], Frame | Reformation]
-    details: Callable[[Renderer, Camera, Settings], dict[str, npt.NDArray[np.float32]]]
+    details: Callable[[Renderer, Camera, Settings, Frame | None], dict[str, npt.NDArray[np.float32]]]
     is_filtered: bool = True
     has_image_per_vessel: bool = False
     own_picture: Callable[[Renderer, Camera, Settings], Reformation] | None = None
@@ -64,26 +67,39 @@ def _paper(settings: Settings) -> Settings:
     return replace(settings, **_lumencut.PAPER)
 
 
-def _surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+def _surface(renderer: Renderer, camera: Camera, settings: Settings, before: Frame | None = None) -> Frame:
     if renderer.volume is None:
-        return renderer.cut_surface(camera, settings)
+        return renderer.cut_surface(camera, settings, before=before)
     # These settings change neither depth nor vessel nor value, but take time.
     bare = replace(settings, context=None, silhouettes=False, samples=1)
-    return renderer.render(camera, bare, images=("depth", "vessel", "value"))
+    return renderer.render(camera, bare, images=("depth", "vessel", "value"), before=before)
+
+
+def _before(renderer: Renderer, camera: Camera, settings: Settings) -> Frame | None:
+    """Return the view one degree before in a turn, if the settings hold on to it."""
+    before = None
+    if settings.turning_limit is not None:
+        for n in range(RUN_UP, 0, -1):
+            turned = camera.rotated(-n * TURN, "up")
+            before = renderer.cut_surface(turned, settings, images=["depth"], before=before)
+    return before
 
 
 def _picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
     return renderer.render(camera, settings)
 
 
-def _details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
-    return renderer._core.details(camera, checked(renderer._choosing(settings)))
+def _details(
+    renderer: Renderer, camera: Camera, settings: Settings, before: Frame | None = None
+) -> dict[str, npt.NDArray[np.float32]]:
+    last = None if before is None else (before.camera, before.depth)
+    return renderer._core.details(camera, checked(renderer._choosing(settings)), last)
 
 
 def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
     """Return a method other than Curved Surface Reformation."""
 
-    def surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
+    def surface(renderer: Renderer, camera: Camera, settings: Settings, _: Frame | None = None) -> Frame:
         if renderer.volume is None:
             return renderer._by(method, camera, settings)
         bare = replace(settings, context=None, silhouettes=False, samples=1)
@@ -92,7 +108,9 @@ def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
     def picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
         return renderer._by(method, camera, settings)
 
-    def details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str, npt.NDArray[np.float32]]:
+    def details(
+        renderer: Renderer, camera: Camera, settings: Settings, _: Frame | None = None
+    ) -> dict[str, npt.NDArray[np.float32]]:
         width, height = camera.size
         found = {"sheet_gap": np.zeros((height, width), np.float32)}
         if settings.silhouettes:
@@ -139,11 +157,12 @@ def checked_methods(names: Any) -> tuple[str, ...]:
 
 def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Settings) -> Shown:
     """Render all images that the measures need."""
-    frame = method.surface(renderer, camera, settings)
-    turned = method.surface(renderer, camera.rotated(TURN, "up"), settings)
+    before = _before(renderer, camera, settings) if method.is_filtered else None
+    frame = method.surface(renderer, camera, settings, before)
+    turned = method.surface(renderer, camera.rotated(TURN, "up"), settings, frame)
     unfiltered = replace(settings, depth_filter=False)
-    plain = method.surface(renderer, camera, unfiltered) if method.is_filtered else frame
-    details = method.details(renderer, camera, settings)
+    plain = method.surface(renderer, camera, unfiltered, before) if method.is_filtered else frame
+    details = method.details(renderer, camera, settings, before)
     return Shown(
         depth=frame.depth,
         vessel=frame.vessel,

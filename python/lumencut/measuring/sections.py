@@ -70,10 +70,11 @@ def measure(
         :attr:`Flag.BRANCH`, and the wall level of its eight widest vessels is used for vessels with too few
         sections.
     wall : pair of float or "off", optional
-        Level of the vessel's wall and its standard deviation, in the unit of the volume. Default: 45 ± 25 HU
-        if the values are HU (some are below -20) and the lumen is bright or air. Otherwise, and with "off",
-        walls count as surroundings; an artery in fat is then measured too wide, because part of its wall
-        counts as lumen. :attr:`Profile.wall_source` states which.
+        Level of the vessel's wall and its standard deviation, in the unit of the volume. Default: 45 ± 25 HU,
+        or 150 ± 40 HU (plaque) where this fits better, if the values are HU (some are below -20) and the
+        lumen is bright or air. Otherwise, and with "off", walls count as surroundings; an artery in fat is
+        then measured too wide, because part of its wall counts as lumen. :attr:`Profile.wall_source` states
+        which.
     polarity : {"auto", "bright", "dark"}, default "auto"
         Refuse a lumen that is not brighter (or darker) than its surroundings; "auto" measures both.
     progress : callable, optional

@@ -54,7 +54,9 @@ class AlongVessels:
 
     def of_rim(self, settings: Settings) -> _lumencut.ValuesAlong | None:
         """Return the values of the rim of a picture; None without a rim, or without a tree to draw it at."""
-        return None if settings.rim is None or self._tree is None else self.of(settings.rim)
+        if settings.rim is None or self._tree is None:
+            return None
+        return self.of(settings.rim).ranged(settings.rim_low, settings.rim_high)
 
     def legend(self, settings: Settings) -> Legend | None:
         """Return what the colours of a picture's rim mean."""

@@ -7,6 +7,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Literal
 
+import numpy as np
+import numpy.typing as npt
+
 from lumencut import _lumencut
 from lumencut.base.checks import callback, choice
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
@@ -167,6 +170,7 @@ class Renderer:
         *,
         images: Iterable[str] | None = None,
         progress: Callable[[int, int], object] | None = None,
+        before: Frame | None = None,
     ) -> Frame:
         """Return the picture of one view.
 
@@ -185,6 +189,8 @@ class Renderer:
             Called with (done, total) about every 50 ms, and once at the end: how much of the view is
             rendered, in parts of which the total is always 1000. A GPU reports nothing before the end of each
             sample. An exception from it ends the rendering.
+        before : Frame, optional
+            The frame before in a turn, with its depth, for the setting ``turning_limit``.
 
         Raises
         ------
@@ -216,7 +222,8 @@ class Renderer:
         callback(SettingsError, "progress", progress)
         along = self._along.of_rim(settings)
         core, volume = self._parts.shown(self._volume, self._tree is not None, camera, settings)
-        buffers = core.render(volume, camera, checked(settings), names, progress, None, along)
+        last = _before(before)
+        buffers = core.render(volume, camera, checked(settings), names, progress, None, along, last)
         return self._frame(camera, settings, buffers, asked, source)
 
     def cut_surface(
@@ -225,6 +232,7 @@ class Renderer:
         settings: Settings | None = None,
         *,
         images: Iterable[str] | None = None,
+        before: Frame | None = None,
     ) -> Frame:
         """Return depth, vessel and distance of one view, without reading the volume.
 
@@ -235,6 +243,8 @@ class Renderer:
         images : iterable of str, optional
             The images that the frame is to have, of ``"depth"``, ``"vessel"``, ``"distance"``, ``"cost"``,
             ``"level"`` and ``"piece"``; the first three by default.
+        before : Frame, optional
+            As for :meth:`render`.
 
         Raises
         ------
@@ -252,7 +262,8 @@ class Renderer:
         camera, settings = self._view(camera, settings)
         asked = None if images is None else _names(images, _OF_CUT_SURFACE)
         names = asked if asked is not None else self._at_once(settings)
-        buffers = self._core.render(None, camera, checked(settings), names)
+        last = _before(before)
+        buffers = self._core.render(None, camera, checked(settings), names, None, None, None, last)
         if asked is not None:
             buffers = {name: buffers[name] for name in (*asked, "timings")}
         return self._frame(camera, settings, buffers, asked)
@@ -372,6 +383,16 @@ def check_renderer(renderer: Any) -> None:
     """Reject anything but a renderer."""
     if not isinstance(renderer, Renderer):
         raise SettingsError("renderer", type(renderer).__name__, "a Renderer")
+
+
+def _before(frame: Frame | None) -> tuple[Camera, npt.NDArray[np.float32]] | None:
+    """Return camera and depth of the frame before in a turn."""
+    if frame is None:
+        return None
+    if not isinstance(frame, Frame) or not frame.has("depth"):
+        found = "a frame without depth" if isinstance(frame, Frame) else type(frame).__name__
+        raise SettingsError("before", found, "a Frame of a cut surface, with its depth, or None")
+    return frame.camera, frame.depth
 
 
 def _check_kind(tree: Any) -> None:

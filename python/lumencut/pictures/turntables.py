@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Iterator
 from types import NoneType
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLike
 
 MOST_FRAMES = 1_000_000
+#: Degrees before a complete turn that its first frame follows.
+RUN_UP = 60.0
 
 
 def turntable(
@@ -51,6 +54,8 @@ def turntable(
     axis : {"superior", "up", "right", "direction"} or array_like of shape (3,), default "superior"
         The axis of the patient or of the first view, or a vector (LPS).
 
+    With the setting ``turning_limit``, each frame follows the one before; a complete turn begins as it ends.
+
     Yields
     ------
     Frame
@@ -69,8 +74,22 @@ def turntable(
         raise CameraError("camera", type(camera).__name__, "a Camera or None")
     if camera is None:
         camera = fitted_turn(Camera.anterior(renderer.scene), renderer.scene, degrees, axis)
-    for view in _views(camera, frames, degrees, axis):
-        yield renderer.render(view, settings)
+    if settings is None or settings.turning_limit is None or renderer.tree is None:
+        for view in _views(camera, frames, degrees, axis):
+            yield renderer.render(view, settings)
+    else:
+        yield from _held(renderer, list(_views(camera, frames, degrees, axis)), settings, degrees)
+
+
+def _held(renderer: Renderer, views: list[Camera], settings: Settings, degrees: float) -> Iterator[Frame]:
+    """Render views that each follow the one before."""
+    before = None
+    if degrees != 0.0 and degrees % 360.0 == 0.0:
+        for view in views[-math.ceil(len(views) * RUN_UP / abs(degrees)) :]:
+            before = renderer.cut_surface(view, settings, images=["depth"], before=before)
+    for view in views:
+        before = renderer.render(view, settings, before=before)
+        yield before
 
 
 def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis = "superior") -> Camera:

@@ -65,6 +65,11 @@ class Settings(CheckedSettings):
         Restrict the depth filter to depths of one vessel on a smooth surface.
     depth_leap : float, 0 to 1000000, default 1
         Largest deviation of a pair of neighbours from a straight line that ``zone_filter`` accepts (mm).
+    turning_limit : float, 0.1 to 1000, optional
+        Largest change of depth outside lumen and wall while a view turns (mm per degree). Only turntables
+        and the turning view of the viewer use it. The surroundings then lag behind those of the still
+        picture, by at most half of ``cost_weight`` times their distance from the wall. If not given: no
+        limit.
     samples : int, 1 to 4, default 1
         Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
         times as long. All other images keep one sample at the centre of each pixel.
@@ -99,6 +104,12 @@ class Settings(CheckedSettings):
         graded stenoses (%), ``deviation`` from their reference (mm) or ``uncertainty`` of the diameter
         (mm). Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from
         radii; all else needs profiles. Labels of the picture explain the colours. If not given: no rim.
+    rim_low : float, -10000 to 10000, optional
+        Value of the first colour of the ``rim`` (in its unit: mm, or % for ``narrowing``). If not given:
+        from the values.
+    rim_high : float, -10000 to 10000, optional
+        Value of the last colour of the ``rim`` (in its unit: mm, or % for ``narrowing``). If not given:
+        from the values.
     tree : {"hidden", "wireframe"}, default "hidden"
         Vessel walls over the picture (name): ``hidden``, or ``wireframe`` for rings across and lines along
         the vessels. Wires show the radii of the centerlines, ``unknown_radius`` where there is none; only
@@ -174,6 +185,7 @@ class Settings(CheckedSettings):
     depth_filter: bool = True
     zone_filter: bool = True
     depth_leap: float = 1.0
+    turning_limit: float | None = None
     samples: int = 1
     edge_samples: int = 3
     window: Window | str | None = None
@@ -186,6 +198,8 @@ class Settings(CheckedSettings):
     occlusion: float = 0.0
     silhouette_color: tuple[int, int, int] = (255, 220, 0)
     rim: RimName | None = None
+    rim_low: float | None = None
+    rim_high: float | None = None
     tree: TreeName = "hidden"
     background: tuple[int, int, int, int] = (0, 0, 0, 255)
     slab: Slab | None = None

@@ -44,6 +44,8 @@ _EXAMPLES = {
     "slab": '{ thickness = 4.0, mode = "mean" }',
     "focus": "{ margin = 2.0, fade = 6.0 }",
     "transfer": '"angio"',
+    # It lies above the example of `rim_low`.
+    "rim_high": "20.0",
 }
 
 
@@ -53,7 +55,8 @@ def settings_text(settings: Any) -> str:
     for name, setting in _lumencut.SETTINGS.items():
         value = getattr(settings, name)
         if value is None and setting.default is None:
-            example = f'"{setting.choices[-1]}"' if setting.kind == "choice" else _EXAMPLES[setting.kind]
+            usual = f'"{setting.choices[-1]}"' if setting.kind == "choice" else _EXAMPLES[setting.kind]
+            example = _EXAMPLES.get(name, usual)
             line = f"# {name} = {example}"
         else:
             line = f"{name} = {_line(setting, value)}"

@@ -20,6 +20,7 @@ from lumencut.scene.camera import Camera
 from lumencut.scene.focus import Focus
 from lumencut.scene.settings import Settings
 from lumencut.scene.slab import Slab
+from lumencut.scene.transfer import TransferFunction
 from lumencut.scene.window import Window
 
 _EXPECTED = "a session file of the viewer (.mrk.json)"
@@ -138,9 +139,11 @@ def view_settings(method: str, given: dict[str, Any]) -> Settings:
 
 
 def _made(name: str, value: Any) -> Any:
-    """Return a setting from its form in the viewer: windows and slabs are pairs, colours lists."""
+    """Return a setting from its form in the viewer: windows and slabs are pairs, colours and points lists."""
     setting = _lumencut.SETTINGS.get(name)
     if setting is None or not isinstance(value, list):
         return value
+    if setting.kind == "transfer":
+        return TransferFunction(value)
     made = {"window": Window, "slab": Slab, "focus": Focus}.get(setting.kind)
     return tuple(value) if made is None else made(*value)

@@ -45,6 +45,7 @@ export interface OtherScan {
   readonly count: number;
   readonly name: string;
   readonly grid: SavedScan;
+  readonly values: string;
   readonly corners: readonly Vector[];
   readonly lines: readonly LineId[];
   readonly isHounsfield: boolean;

@@ -8,7 +8,13 @@ export type Window = Pair;
 /** Number of a centerline in the engine. An edit creates a new line and keeps the old one for undo. */
 export type LineId = number;
 
-export type SettingValue = boolean | number | string | null | readonly (number | string)[];
+export type SettingValue =
+  | boolean
+  | number
+  | string
+  | null
+  | readonly (number | string)[]
+  | readonly (readonly [number, Vector, number])[];
 export type Settings = Readonly<Record<string, SettingValue>>;
 
 export type Bytes = Uint8ClampedArray<ArrayBuffer>;

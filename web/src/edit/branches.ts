@@ -5,14 +5,14 @@ import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { showFailure } from '../state/message';
 import { openList } from '../state/panels';
-import { pickOnceShown } from '../state/shown';
-import { addNotes, camera } from '../state/store';
+import { goToVessel, pickOnceShown } from '../state/shown';
+import { addDoubts, addNotes, camera } from '../state/store';
 import { engine } from '../worker/engine';
 import { commit, isDone } from './committing';
 import { maskOf, namedBySegment } from './segmentation';
 
 /** Adds all branches connected to a seed. Doubtful ones are only added once the user accepts them. */
-export const addBranches = (seed: Vector): Promise<boolean> => isDone(commit({ kind: 'add_branches', seed }));
+export const addBranches = (seed: Vector): Promise<boolean> => addMany({ kind: 'add_branches', seed });
 
 export const accept = (ids: readonly number[]): Promise<boolean> => isDone(commit({ kind: 'accept', ids }));
 
@@ -37,6 +37,7 @@ async function showMain(): Promise<void> {
     const [vessel] = sure();
     if (vessel && camera.value) {
       pickOnceShown(vessel.id);
+      goToVessel(vessel.id, null);
       await flyToAnswer(engine.ask('best_view', { camera: camera.value, line: vessel.line }));
     }
   } catch (error) {
@@ -73,6 +74,9 @@ function addMany(
   mask?: readonly GivenFile[],
   renamed?: (vessel: DocumentVessel) => DocumentVessel,
 ): Promise<boolean> {
-  const then = (edited: Edited) => addNotes(edited.notes);
+  const then = ({ notes, doubts }: Edited) => {
+    addNotes(notes);
+    addDoubts(doubts);
+  };
   return isDone(commit(edit, { then, ...(mask && { mask }), ...(renamed && { renamed }) }));
 }

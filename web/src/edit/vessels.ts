@@ -12,7 +12,6 @@ export const recolor = (id: number, color: string): Promise<boolean> => set('col
 export const hide = (id: number, isHidden: boolean): Promise<boolean> =>
   set(isHidden ? 'hide a vessel' : 'show a vessel', id, { isHidden });
 
-/** Hides or shows several vessels in one step. */
 export function hideAll(vessels: readonly DocumentVessel[], isHidden: boolean): Promise<boolean> {
   const words = isHidden ? 'hide veins and heart' : 'show veins and heart';
   return commitPlain(words, (document) =>

@@ -1,4 +1,3 @@
-/** Chart of the diameter by arc length. */
 import { DEVIATIONS } from '../core/generated/tables';
 import type { Axis, ChartLayout } from '../core/messages';
 import type { Kind } from './marks';
@@ -19,7 +18,6 @@ export interface ChartMark {
 }
 
 interface ProfileChartProps {
-  /** The axis of the arc length. */
   readonly x: Axis;
   readonly layout: ChartLayout;
   /** Whether lengths are in mm. */

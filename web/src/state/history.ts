@@ -54,7 +54,6 @@ export const hasEdits = computed(() =>
   [...past.value, ...future.value].some(({ before, after }) => before !== after),
 );
 
-/** Replaces the document as one undo step. */
 export function change(words: string, after: Document): void {
   const before = document_.value;
   if (after === before) {

@@ -115,6 +115,7 @@ export function scanNow(): OtherScan | null {
         count,
         name: store.studyName.value,
         grid: gridOf(report.volume),
+        values: JSON.stringify(store.histogram.value),
         corners: report.volume.corners,
         lines: (report.vessels ?? []).map(({ line }) => line),
         isHounsfield: report.windows?.is_hounsfield ?? false,

@@ -1,4 +1,3 @@
-/** Messages that disappear after a while. */
 import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import { problem, report } from './store';

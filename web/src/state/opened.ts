@@ -57,6 +57,7 @@ export function forgetOpened(): void {
   batch(() => {
     store.report.value = null;
     store.notes.value = [];
+    store.vesselDoubts.value = [];
     store.scanStudy.value = null;
     store.histogram.value = null;
     store.crossHair.value = null;

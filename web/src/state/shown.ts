@@ -13,6 +13,7 @@ import type {
 import type { Window } from '../core/plain';
 import { engine } from '../worker/engine';
 import { nameOf, shownVessels } from './changes';
+import { moveTo } from './cross-hair';
 import { type Document, EMPTY } from './document';
 import { answered, editQueue } from './edit-queue';
 import { begin, document_, setGiven } from './history';
@@ -45,6 +46,15 @@ export function pickOnceShown(id: number): void {
       store.pickedPlace.value = (store.report.value?.vessels?.[vessel]?.length ?? 0) / 2;
     }
   });
+}
+
+/** Picks a vessel, and moves the cross-hair to a place on it (mm), by default to half its length. A vessel that is not shown stays. */
+export function goToVessel(id: number, at: number | null): void {
+  const vessel = tree.value.findIndex((one) => one.id === id);
+  if (vessel >= 0) {
+    store.pickVessel(vessel);
+    moveTo(at ?? (store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
+  }
 }
 
 export const pickedId = (): number | null => tree.value[store.pickedVessel.value ?? -1]?.id ?? null;

@@ -16,6 +16,7 @@ import type {
   Started,
   States,
   Vector,
+  VesselDoubt,
   Window,
 } from '../core/messages';
 import { STANDARD } from '../core/planes';
@@ -49,6 +50,7 @@ export const epoch = signal(0);
 export const report = signal<Report | null>(null);
 export const studyName = signal('');
 export const notes = signal<readonly string[]>([]);
+export const vesselDoubts = signal<readonly VesselDoubt[]>([]);
 export const states = signal<States>({ spacing: true, orientation: true });
 export const scanStudy = signal<ScanStudy | null>(null);
 export const histogram = signal<Histogram | null>(null);
@@ -98,7 +100,7 @@ export const pickedLine = (): LineId | null =>
   report.value?.vessels?.[pickedVessel.value ?? -1]?.line ?? null;
 
 /** Lines of more vessels than this crowd the view, so they are drawn only if the user chooses them. */
-const MOST_WITH_LINES = 40;
+export const MOST_WITH_LINES = 40;
 
 /** The chosen settings, and those that depend on the scan. */
 export const ownSettings = computed<Settings>(() =>
@@ -148,6 +150,10 @@ export function setNotes(all: readonly string[]): void {
 
 export function addNotes(more: readonly string[]): void {
   notes.value = [...new Set([...notes.value, ...more])];
+}
+
+export function addDoubts(more: readonly VesselDoubt[]): void {
+  vesselDoubts.value = [...vesselDoubts.value, ...more];
 }
 
 export function setCamera(to: Camera): void {

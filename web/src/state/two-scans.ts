@@ -1,7 +1,7 @@
 /** A second scan next to the open one: what is linked, pairs of places that belong together, and the comparison of a vessel. */
 import { batch, computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
-import { LINKS, type Link, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
+import { gridOf, LINKS, type Link, type LinkedPlace, type OtherScan, type Seen } from '../core/linked';
 import type {
   ComparedScans,
   LineId,
@@ -27,6 +27,13 @@ const placed = signal<Motion | null>(null);
 export const isOtherEarlier = signal(true);
 export const isComparing = signal(false);
 export const comparisonFailure = signal<Failure | null>(null);
+
+/** Whether both pages show the same scan: with the same grid and the same values. */
+export const isSameScan = computed<boolean>(() => {
+  const [here, there] = [store.report.value?.volume, otherScan.value];
+  const own = [here && gridOf(here), JSON.stringify(store.histogram.value)];
+  return there !== null && JSON.stringify(own) === JSON.stringify([there.grid, there.values]);
+});
 
 export interface VesselComparison {
   readonly asked: ScansToCompare;

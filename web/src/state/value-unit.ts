@@ -1,4 +1,3 @@
-/** The unit of the scan's values. */
 import { report } from './store';
 
 /** `HU`, or the statement that no unit is known. */

@@ -9,6 +9,7 @@ import { placeCrossHair } from '../state/cross-hair';
 import { document_, hasEdits } from '../state/history';
 import { forgetLines } from '../state/lines';
 import { dropLength, forgetFindings } from '../state/measuring';
+import { showMessage } from '../state/message';
 import { forgetOpened, openWith, takeOpened } from '../state/opened';
 import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
@@ -118,6 +119,10 @@ async function showStudy({ report, notes, states, study = null }: Opened, name: 
     });
     beginStudy(vessels);
   });
+  const doubt = report.volume?.doubt;
+  if (doubt) {
+    showMessage(`${doubt[0]?.toUpperCase()}${doubt.slice(1)}.`);
+  }
 }
 
 async function showBeside({ report, notes }: Opened): Promise<void> {

@@ -1,4 +1,3 @@
-/** The root component of the page. */
 import { report } from '../state/store';
 import { ComparisonBar } from './ComparisonBar';
 import { ComparisonPane } from './ComparisonPane';

@@ -9,6 +9,7 @@ import {
   isBeside,
   isComparing,
   isOtherEarlier,
+  isSameScan,
   linkAll,
   links,
   otherScan,
@@ -39,6 +40,7 @@ export function ComparisonBar() {
     <section class="comparison-bar" aria-label="Two scans">
       {otherScan.value ? (
         <>
+          {isSameScan.value && <strong role="status">Both are the same scan.</strong>}
           <Links />
           <Pairs />
           <Comparing />

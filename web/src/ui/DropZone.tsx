@@ -1,4 +1,3 @@
-/** Accepts files dropped anywhere on the page. */
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { dropped } from '../input/dropped';
 import { hasVolume, started } from '../state/store';

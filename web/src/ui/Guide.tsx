@@ -11,7 +11,6 @@ import * as store from '../state/store';
 import { isTracing } from '../state/tool';
 import { openPhantom } from '../study/study';
 
-/** Box over the views with the current step. */
 export function Guide() {
   const number = guideStep.value;
   const step = number === null ? null : STEPS[number];
@@ -41,7 +40,6 @@ export function Guide() {
 
 interface GuideStep {
   readonly title: string;
-  /** Sentences of the step. */
   readonly words: readonly string[] | (() => readonly string[]);
   readonly isDone: () => boolean;
 }

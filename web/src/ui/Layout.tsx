@@ -1,4 +1,3 @@
-/** The panes of each layout, and the views in them. */
 import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
 import { ProfilePane } from '../measure/ProfilePane';

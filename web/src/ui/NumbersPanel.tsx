@@ -5,10 +5,11 @@ import { PlacesTable } from '../measure/PlacesTable';
 import { RulersPart } from '../measure/Rulers';
 import { StretchPart } from '../measure/StretchPart';
 import { mm, unitless } from '../measure/words';
-import { moveTo } from '../state/cross-hair';
 import { giveFwhm } from '../state/profiles';
+import { goToVessel, tree } from '../state/shown';
 import * as store from '../state/store';
 import { BestViewButton } from './BestViewButton';
+import { LineDoubts } from './LineDoubts';
 import { StenosisPart } from './StenosisPart';
 
 export function NumbersPanel() {
@@ -16,6 +17,7 @@ export function NumbersPanel() {
   return (
     <div class="numbers-panel" data-testid="numbers">
       <VesselChoice />
+      <Doubts />
       {unitless() && <p data-testid="unitless">{unitless()}</p>}
       {profile && (
         <>
@@ -29,6 +31,16 @@ export function NumbersPanel() {
       {profile && <p data-testid="walls">{`Walls: ${profile.wall_source}.`}</p>}
       {profile && <p data-testid="imaging">{`Imaging: ${store.report.value?.volume?.scan}.`}</p>}
     </div>
+  );
+}
+
+function Doubts() {
+  const { id, line } = tree.value[store.pickedVessel.value ?? -1] ?? {};
+  const doubts = store.vesselDoubts.value.filter((doubt) => doubt.line === line);
+  return id === undefined || doubts.length === 0 ? null : (
+    <p class="doubts" data-testid="line-doubts">
+      <LineDoubts key={line} id={id} words="The line:" doubts={doubts} />
+    </p>
   );
 }
 
@@ -58,8 +70,10 @@ function VesselChoice() {
 }
 
 function pick(vessel: number): void {
-  store.pickVessel(vessel);
-  moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
+  const shown = tree.value[vessel];
+  if (shown) {
+    goToVessel(shown.id, null);
+  }
 }
 
 /** Shows the FWHM that is used for measuring, with a field to enter a known value. */

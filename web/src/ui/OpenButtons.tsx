@@ -1,4 +1,3 @@
-/** Buttons that open files, or a DICOM folder. */
 import { useRef } from 'preact/hooks';
 import { chosen } from '../input/dropped';
 import { started } from '../state/store';

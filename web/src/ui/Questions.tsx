@@ -10,7 +10,6 @@ import { openSession } from '../study/saving';
 import { leave } from '../study/unsaved';
 import { Question } from './Question';
 
-/** Asks the user before unsaved work is lost. */
 export function LeaveQuestion() {
   const waiting = leaving.value;
   if (!waiting) {

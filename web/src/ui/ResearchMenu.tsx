@@ -5,6 +5,7 @@ import { SlabField } from '../pane/SlabField';
 import { setSetting, settingOf } from '../state/actions';
 import { chooseMethod, method, resetSettings, started } from '../state/store';
 import { keepWithin, useClosing } from './closing-menu';
+import { TransferEditor } from './TransferEditor';
 
 const CONTEXTS: readonly (readonly [string, string])[] = [
   ['mida', 'MIDA'],
@@ -31,9 +32,13 @@ export function ResearchMenu() {
         <MethodChoice />
         <ContextChoice />
         <Slab />
-        {rows.map((row) => (
-          <Row key={row.name} row={row} />
-        ))}
+        {rows.map((row) =>
+          row.kind === 'transfer' ? (
+            <TransferEditor key={row.name} row={row} />
+          ) : (
+            <Row key={row.name} row={row} />
+          ),
+        )}
         <button type="button" onClick={resetSettings}>
           Reset
         </button>

@@ -1,4 +1,3 @@
-/** The menu "Save". */
 import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';

@@ -1,5 +1,3 @@
-/** Start page: instructions and phantoms. */
-
 import { started } from '../state/store';
 import { isCompanion } from '../state/two-scans';
 import { openPhantom } from '../study/study';

@@ -3,11 +3,10 @@
 import type { Vector } from '../core/messages';
 import { nameOf } from '../state/changes';
 import { hasMillimetres } from '../state/millimetres';
-import { openAgain } from '../state/opened';
 import { tree } from '../state/shown';
 import * as store from '../state/store';
 import { valueUnit } from '../state/value-unit';
-import { useClosing } from './closing-menu';
+import { Notes } from './Notes';
 
 export function StatusBar() {
   return (
@@ -80,31 +79,6 @@ function deviceText(): string {
   }
   const threads = started.threads === 1 ? '1 thread' : `${started.threads} threads`;
   return `CPU: ${threads}${started.isIsolated ? '' : ', because the page is not cross-origin isolated'}`;
-}
-
-function Notes() {
-  const menu = useClosing();
-  const notes = store.notes.value;
-  if (notes.length === 0) {
-    return null;
-  }
-  return (
-    <details class="menu upwards" ref={menu}>
-      <summary>{notes.length === 1 ? '1 note' : `${notes.length} notes`}</summary>
-      <ul class="menu-body">
-        {notes.map((note) => (
-          <li key={note}>{note}</li>
-        ))}
-        {store.report.value?.can_reorder && (
-          <li>
-            <button type="button" onClick={() => void openAgain({ reorder: true })}>
-              Put the points in order
-            </button>
-          </li>
-        )}
-      </ul>
-    </details>
-  );
 }
 
 const NAMES = [

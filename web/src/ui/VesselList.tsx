@@ -1,5 +1,3 @@
-/** The vessel list, with buttons for all vessels. */
-
 import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { findVessels } from '../edit/branches';
 import { STOPPER, setBridge } from '../edit/clicks';

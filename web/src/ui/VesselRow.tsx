@@ -1,14 +1,12 @@
 /** A row of the vessel list. The row of the picked vessel has buttons for it. */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { DocumentVessel, Pick } from '../core/messages';
+import type { DocumentVessel } from '../core/messages';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { nameOf, PALETTE } from '../state/changes';
-import { placeAnswer } from '../state/cross-hair';
-import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
-import { pickedId, pickOnceShown, tree } from '../state/shown';
+import { goToVessel, pickedId, pickOnceShown, tree } from '../state/shown';
 import { pickedPlace, report } from '../state/store';
 import {
   endHighlight,
@@ -20,7 +18,6 @@ import {
   sure,
 } from '../state/tidying';
 import { extend, takeTool } from '../state/tool';
-import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';
 import { LineByHand, LineTools } from './LineTools';
 
@@ -61,7 +58,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
         checked={isPicked}
         disabled={vessel.isHidden}
         aria-label={`Show ${name} straightened`}
-        onChange={() => void pick(vessel)}
+        onChange={() => pick(vessel)}
       />
       <ColorChoice vessel={vessel} />
       <NameField vessel={vessel} isPicked={isPicked} />
@@ -142,7 +139,7 @@ function SuggestedName({ vessel }: RowProps) {
 
 function pickShown(vessel: DocumentVessel): void {
   if (!vessel.isHidden) {
-    void pick(vessel);
+    pick(vessel);
   }
 }
 
@@ -234,23 +231,8 @@ function VesselActions({ vessel }: RowProps) {
   );
 }
 
-async function middleOf(vessel: number, length: number): Promise<Pick> {
-  const [point] = await engine.ask('across', { vessel, at: length / 2 });
-  const { value } = await engine.ask('at', point);
-  return { point, value, vessel, arc_length: length / 2 };
-}
-
 /** Picks a vessel, and moves all views to half its length. A hidden vessel is picked once displayed. */
-async function pick({ id }: DocumentVessel): Promise<void> {
+function pick({ id }: DocumentVessel): void {
   pickOnceShown(id);
-  const vessel = tree.value.findIndex((one) => one.id === id);
-  if (vessel < 0) {
-    return;
-  }
-  const length = report.value?.vessels?.[vessel]?.length ?? 0;
-  try {
-    await placeAnswer(middleOf(vessel, length), 'turning');
-  } catch (error) {
-    recover(error);
-  }
+  goToVessel(id, null);
 }

@@ -1,9 +1,10 @@
 /** The grey-value window over the histogram. Its ends and its middle can be dragged or moved by arrow keys. */
 import { useRef } from 'preact/hooks';
-import type { Histogram, Window } from '../core/messages';
+import type { Window } from '../core/messages';
 import { setWindow } from '../state/actions';
 import { windowChanged } from '../state/history';
 import * as store from '../state/store';
+import { Scale } from './value-axis';
 import { WindowPresets } from './WindowPresets';
 
 const WIDTH = 220;
@@ -15,11 +16,14 @@ export function WindowStrip() {
   if (!histogram) {
     return null;
   }
-  const scale = new Scale(histogram, store.report.value?.windows?.main ?? store.window_.value);
+  const scale = new Scale(histogram, store.report.value?.windows?.main ?? store.window_.value, [
+    WIDTH,
+    HEIGHT,
+  ]);
   return (
     <div class="window-strip">
       <svg width={WIDTH} height={HEIGHT} aria-hidden="true" class="histogram">
-        <path d={outline(histogram, scale)} />
+        <path d={scale.outline(histogram)} />
         <rect
           x={scale.x(level - width / 2)}
           width={Math.max(scale.x(level + width / 2) - scale.x(level - width / 2), 1)}
@@ -47,36 +51,6 @@ export function WindowStrip() {
 /** The window from black at `low` to white at `high`; white stays above black. */
 function between(low: number, high: number): Window {
   return [(low + high) / 2, Math.max(high - low, 1e-3)];
-}
-
-/** The value axis: at most two window widths on each side of the level, so that metal does not compress the rest. */
-class Scale {
-  readonly low: number;
-  readonly high: number;
-
-  constructor(histogram: Histogram, main: Window) {
-    this.low = Math.max(histogram.low, main[0] - 2 * main[1]);
-    this.high = Math.max(Math.min(histogram.high, main[0] + 2 * main[1]), this.low + 1e-3);
-  }
-
-  x(value: number): number {
-    return Math.min(Math.max((value - this.low) / (this.high - this.low), 0), 1) * WIDTH;
-  }
-
-  get perPixel(): number {
-    return (this.high - this.low) / WIDTH;
-  }
-}
-
-/** Outline of the histogram; its counts are logarithmic, because a few values dominate. */
-function outline({ low, high, counts }: Histogram, scale: Scale): string {
-  const most = Math.log1p(Math.max(...counts, 1));
-  const step = (high - low) / counts.length;
-  const points = counts.map((count, n) => {
-    const x = scale.x(low + (n + 0.5) * step).toFixed(1);
-    return `${x} ${(HEIGHT * (1 - Math.log1p(count) / most)).toFixed(1)}`;
-  });
-  return `M0 ${HEIGHT}L${points.join('L')}L${WIDTH} ${HEIGHT}Z`;
 }
 
 interface HandleProps {

@@ -1,4 +1,4 @@
-/** Menus: moves them into the window, and closes them after a choice, on Escape, and on a press elsewhere. */
+/** Menus: moves them into the window, and closes them after a choice (unless it `stays`), on Escape, and on a press elsewhere. */
 import type { RefObject, TargetedEvent } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
@@ -21,7 +21,7 @@ export function useClosing(): RefObject<HTMLDetailsElement | null> {
       }
     };
     const clicked = ({ target }: Event) => {
-      if ((target as Element).closest('button')) {
+      if ((target as Element).closest('button:not(.stays)')) {
         close();
       }
     };

@@ -23,7 +23,6 @@ export function listenToKeys(): void {
   });
 }
 
-/** Whether a key acts even in a text field. */
 const isOfAll = (action: Action): boolean => ['cancel', 'save session', 'save report'].includes(action);
 
 /** Moves the focus to the view that an action opened, so that it receives the next keys. */

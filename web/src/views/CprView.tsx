@@ -1,5 +1,3 @@
-/** View of the picked vessel as straightened CPR. */
-
 import { useCallback, useState } from 'preact/hooks';
 import { DEFAULTS, PIXEL_SIDES } from '../core/generated/tables';
 import type { Cpr, Pair } from '../core/messages';
@@ -11,6 +9,7 @@ import { placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
+import { CprGrips } from './CprGrips';
 import { NamedScale } from './NamedScale';
 
 export function CprView() {
@@ -83,6 +82,7 @@ export function CprView() {
         {cpr && size && spacing && <NamedScale size={size} spacing={spacing} />}
         {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
         {size && spacing && <UprightPlaces size={size} spacing={spacing} />}
+        {shown && spacing && <CprGrips size={shown} spacing={spacing} left={left} />}
       </FlatPicture>
       {cpr && <CprControls />}
     </>

@@ -1,5 +1,3 @@
-/** Cross-section of the picked vessel. */
-
 import { useEffect, useState } from 'preact/hooks';
 import type { Answer, LineId, Pair, Plane } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';

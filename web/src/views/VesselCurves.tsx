@@ -6,11 +6,23 @@ import { drawnColor, livePaths, whole } from '../state/drawing';
 import { document_ } from '../state/history';
 import { contents } from '../state/lines';
 import { tree } from '../state/shown';
-import { pickedVessel } from '../state/store';
+import { crossHair, MOST_WITH_LINES, pickedVessel } from '../state/store';
 import { highlighted, marked } from '../state/tidying';
-import { areDoubtfulShown, chosenDoubt, isTracing, tool } from '../state/tool';
-import { pathData } from './curves';
+import { active, areDoubtfulShown, chosenDoubt, isTracing, tool } from '../state/tool';
+import { passesNear, pathData } from './curves';
 import type { Projection } from './projection';
+
+/** If many vessels are shown, others farther from the cross-hair (mm) are drawn only where a slice cuts them. */
+const FAR = 25;
+
+function isDrawnWhole(vessel: DocumentVessel): boolean {
+  const hair = crossHair.value;
+  return (
+    tree.value.length <= MOST_WITH_LINES ||
+    vessel.id === active.value ||
+    (hair !== null && passesNear(contents.value.get(vessel.line)?.points ?? [], hair.point, FAR))
+  );
+}
 
 interface OverProps {
   readonly projection: Projection;
@@ -23,9 +35,13 @@ export function VesselCurves({ projection }: OverProps) {
   const isSeen = (vessel: DocumentVessel) =>
     vessel.id === highlighted.value ||
     vessel.id === chosenDoubt.value ||
+    (isOn && vessel.id === picked) ||
     (!vessel.isHidden &&
       (vessel.doubt === null || areDoubtfulShown.value) &&
-      (isOn || !projection.isThrough || vessel.doubt !== null || marked.value.has(vessel.id)));
+      (!projection.isThrough ||
+        (isOn && isDrawnWhole(vessel)) ||
+        vessel.doubt !== null ||
+        marked.value.has(vessel.id)));
   return (
     <svg class="curves" aria-hidden="true">
       {document_.value.vessels.filter(isSeen).map((vessel) => (
@@ -34,7 +50,7 @@ export function VesselCurves({ projection }: OverProps) {
           vessel={vessel}
           projection={projection}
           isPicked={vessel.id === picked}
-          hasFar={isOn}
+          hasFar={isOn && !projection.isThrough && (vessel.id === picked || isDrawnWhole(vessel))}
         />
       ))}
       <LivePaths projection={projection} />
@@ -61,7 +77,7 @@ function Curve({ vessel, projection, isPicked, hasFar }: CurveProps) {
   const color = vessel.doubt === null ? vessel.color : DOUBTFUL;
   return (
     <g class={kind} stroke={color} data-vessel={vessel.id}>
-      {hasFar && !projection.isThrough && <path class="far" d={pathData(points, projection, 'far')} />}
+      {hasFar && <path class="far" d={pathData(points, projection, 'far')} />}
       {vessel.doubt === null ? (
         <Cased kind="near" d={pathData(points, projection, 'near')} />
       ) : (

@@ -1,6 +1,7 @@
 /** Curves over a view: their SVG paths, and which curve lies under the pointer. */
 
 import type { DocumentVessel, Pair, Vector } from '../core/messages';
+import { length, subtract } from '../core/vectors';
 import { document_ } from '../state/history';
 import { contents } from '../state/lines';
 import type { Projection } from './projection';
@@ -8,6 +9,9 @@ import type { Projection } from './projection';
 /** Points within this distance of a slice (mm) are drawn as lying in it. */
 export const NEAR = 2;
 const HIT_DISTANCE_PX = 7;
+
+export const passesNear = (points: readonly Vector[], place: Vector, most: number): boolean =>
+  points.some((point) => length(subtract(point, place)) <= most);
 
 export const isNear = (projection: Projection, point: Vector): boolean =>
   projection.isThrough || Math.abs(projection.depth(point)) <= NEAR;

@@ -126,11 +126,12 @@ export class FrameLoop {
 
   private atStage(view: View, stage: Stage): View {
     // Lines become smooth at the end, by samples everywhere.
-    const plain: Settings = { ...view.settings, edge_samples: 1 };
+    const moving: Settings = { ...view.settings, edge_samples: 1 };
     if (stage === 'moving') {
-      const settings = { ...plain, context_preview: true, samples: 1 };
+      const settings = { ...moving, context_preview: true, samples: 1 };
       return { ...view, camera: sampled(view.camera, this.factor), settings };
     }
+    const plain: Settings = { ...moving, turning_limit: null };
     const camera = sampled(view.camera, Math.min(window.devicePixelRatio || 1, MOST_DENSE));
     const settings = stage === 'samples' ? { ...plain, samples: SAMPLES } : plain;
     return { ...view, camera, settings };

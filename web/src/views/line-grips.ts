@@ -1,4 +1,3 @@
-/** Where the line of a vessel has grips in a slice. */
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { isNear } from './curves';
@@ -11,7 +10,7 @@ export interface LinePlace {
 }
 
 /** Least distance of neighbouring grips (CSS pixels). */
-const APART_PX = 48;
+export const APART_PX = 48;
 
 /** Places at equal distances along the parts of a line that lie in the slice; each part has at least one. */
 export function gripsOf(points: readonly Vector[], projection: Projection): LinePlace[] {

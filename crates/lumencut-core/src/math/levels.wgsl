@@ -32,7 +32,7 @@ struct Projected {
     inverse_length: f32,
     arc_length: f32,
     stands: u32,
-    padding: u32,
+    vessel: i32,
 }
 
 struct CutSurfaceParameters {

@@ -24,6 +24,7 @@ const NOWHERE = 0xffffffffu;
 struct Along {
     next: u32,
     arc_length: f32,
+    vessel: i32,
 }
 
 @group(0) @binding(2) var<storage, read> alongs: array<Along>;
@@ -66,6 +67,7 @@ fn projection(
     written.edge = select(vec2f(0.0), edge, is_edge);
     written.inverse_length = select(0.0, 1.0 / sqrt(max(square, 1e-30)), is_edge);
     written.arc_length = alongs[i].arc_length;
+    written.vessel = alongs[i].vessel;
     projected[i] = written;
 }
 

@@ -76,12 +76,16 @@ fn find(place: vec3f, near: u32) -> TubePlace {
         let is_before = along < -half && row > 0u && way <= 0.0;
         let is_after = along > half && row + 1u < tube.rows && way >= 0.0;
         if !is_before && !is_after {
-            let ahead = cross(at.across.xyz, at.tangent.xyz);
-            return TubePlace(row, along, vec2f(dot(away, at.across.xyz), dot(away, ahead)));
+            break;
         }
         way = along;
         row = select(row + 1u, row - 1u, is_before);
     }
+    let at = tube_rows[row];
+    let away = place - at.middle.xyz;
+    let ahead = cross(at.across.xyz, at.tangent.xyz);
+    let offset = vec2f(dot(away, at.across.xyz), dot(away, ahead));
+    return TubePlace(row, dot(away, at.tangent.xyz), offset);
 }
 
 fn is_beyond(place: TubePlace) -> bool {

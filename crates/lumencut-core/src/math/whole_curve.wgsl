@@ -4,19 +4,17 @@
 
 override WHOLE_CURVE: bool = false;
 
-@group(0) @binding(4) var<storage, read> vessel_of_slot: array<i32>;
-
 // The distance of each pixel from the projection of one vessel (mm).
 var<private> curve_distance: array<vec4f, MAX_QUADS>;
 
 fn end_of_level(level: u32) -> u32 {
     let next = parameters.levels[min(level + 1u, MAX_LEVELS)].first_slot;
-    return select(arrayLength(&vessel_of_slot), next, next > parameters.levels[level].first_slot);
+    return select(arrayLength(&projected), next, next > parameters.levels[level].first_slot);
 }
 
 fn end_of_curve(first: u32, end_of_all: u32) -> u32 {
     var end = first;
-    while end < end_of_all && vessel_of_slot[end] == vessel_of_slot[first] {
+    while end < end_of_all && projected[end].vessel == projected[first].vessel {
         end++;
     }
     return end;
@@ -91,10 +89,10 @@ fn lowest_keys_of_curves(level: u32) {
 
 // The distance of q from the vessel that slot i of a level belongs to.
 fn distance_to_curve(level: u32, i: u32, q: vec2f) -> f32 {
-    let vessel = vessel_of_slot[i];
+    let vessel = projected[i].vessel;
     var nearest = FAR;
     for (var n = parameters.levels[level].first_slot; n < end_of_level(level); n++) {
-        if vessel_of_slot[n] == vessel {
+        if projected[n].vessel == vessel {
             let here = projected[n];
             nearest = min(nearest, length(q - here.point.xy));
             if here.inverse_length > 0.0 {

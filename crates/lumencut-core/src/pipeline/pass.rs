@@ -21,6 +21,7 @@ use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::occlusion::{OcclusionParameters, occlusion};
 use crate::stages::rim::{RimColors, RimParameters, rim};
 use crate::stages::silhouette::{FARTHEST_LEAP, SilhouetteParameters, silhouette, silhouette_of_leaps};
+use crate::stages::steady::{Before, SteadyParameters, steady};
 use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::{filled, resize};
@@ -36,6 +37,8 @@ pub struct CutSurfacePass<'a> {
     pub settings: &'a Settings,
     /// Colours along the vessels, for the rim.
     pub colors: Option<&'a RimColors>,
+    /// The view before, if this one continues a turn.
+    pub before: Option<Before<'a>>,
 }
 
 impl CutSurfacePass<'_> {
@@ -62,6 +65,7 @@ impl CutSurfacePass<'_> {
                 let written = DepthImages { depth: unfiltered_depth, vessel, sheet, blend, foot };
                 depth(work, &self.surface, &images.distance, written)
             }
+            Stage::Steady => self.steady(images),
             Stage::Leap => {
                 images.leap = vec![0; pixels];
                 let parameters = LeapParameters::new(self.surface.camera());
@@ -95,6 +99,20 @@ impl CutSurfacePass<'_> {
             | Stage::Context
             | Stage::Body
             | Stage::Composite => Ok(()),
+        }
+    }
+
+    fn steady(&self, images: &mut Images) -> Result<()> {
+        let Some(before) = &self.before else { return Ok(()) };
+        match SteadyParameters::new(self.settings, self.surface.camera(), before) {
+            Some(parameters) => {
+                let before = before.seen_by(self.surface.camera());
+                let Images { unfiltered_depth, depth, foot, .. } = images;
+                // Filtering depths that are held would change lumen and wall.
+                let depth = if depth.is_empty() { unfiltered_depth } else { depth };
+                steady(&self.work, &parameters, foot, &before, depth)
+            }
+            None => Ok(()),
         }
     }
 
@@ -166,6 +184,7 @@ impl LookPass<'_> {
             | Stage::Projection
             | Stage::Distance
             | Stage::Depth
+            | Stage::Steady
             | Stage::Leap
             | Stage::DepthFilter
             | Stage::Focus
@@ -318,7 +337,7 @@ impl SurfaceDetails {
 
     pub(super) fn of(pass: &CutSurfacePass) -> Result<Self> {
         let (settings, mut images) = (pass.settings, Images::default());
-        for stage in Stage::of_cut_surface(settings, Self::WANTED) {
+        for stage in Stage::of_cut_surface(settings, pass.wanted) {
             pass.run(stage, &mut images)?;
         }
         let Images { unfiltered_depth, depth, vessel, leap, sheet, focus, .. } = images;

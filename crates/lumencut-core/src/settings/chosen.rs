@@ -49,6 +49,17 @@ impl Settings {
             )
             .mend("set preserve_lumen, or leave the rim out"));
         }
+        if let (Some(low), Some(high)) = (self.rim_low, self.rim_high)
+            && low >= high
+        {
+            let found = format!("{low} to {high}");
+            return Err(Error::new(
+                ErrorKind::Settings,
+                "colours of the rim",
+                found,
+                "rim_low below rim_high",
+            ));
+        }
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());
         }

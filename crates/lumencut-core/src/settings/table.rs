@@ -78,6 +78,12 @@ settings! {
         /// Largest deviation of a pair of neighbours from a straight line that `zone_filter` accepts (mm).
         depth_leap: f64 = 1.0, range(0.0, 1e6, "mm");
 
+        /// Largest change of depth outside lumen and wall while a view turns (mm per degree).
+        ///
+        /// Only turntables and the turning view of the viewer use it. The surroundings then lag behind those of the
+        /// still picture, by at most half of `cost_weight` times their distance from the wall.
+        turning_limit: Option<f64> = None, range(0.1, 1e3, "mm per degree"), open("no limit");
+
         /// Average N × N samples per pixel (count, 1 to 4).
         ///
         /// Edges become smoother, and the picture takes N² times as long. All other images keep one sample at the
@@ -128,6 +134,12 @@ settings! {
         /// Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from radii; all
         /// else needs profiles. Labels of the picture explain the colours.
         rim: Option<RimValue> = None, open("no rim");
+
+        /// Value of the first colour of the `rim` (in its unit: mm, or % for `narrowing`).
+        rim_low: Option<f64> = None, range(-1e4, 1e4, "mm or %"), open("from the values");
+
+        /// Value of the last colour of the `rim` (in its unit: mm, or % for `narrowing`).
+        rim_high: Option<f64> = None, range(-1e4, 1e4, "mm or %"), open("from the values");
 
         /// Vessel walls over the picture (name): `hidden`, or `wireframe` for rings across and lines along the vessels.
         ///

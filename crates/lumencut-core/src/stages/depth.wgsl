@@ -11,9 +11,10 @@ override HAS_SHEET: bool = false;
 override HAS_BLEND: bool = false;
 override HAS_FOOT: bool = false;
 
+@group(0) @binding(4) var<storage, read_write> foot_image: array<vec4f>;
 @group(0) @binding(5) var<storage, read_write> depth_image: array<f32>;
 @group(0) @binding(6) var<storage, read_write> vessel_image: array<i32>;
-// The sheet, the blend or the foot.
+// The sheet or the blend.
 @group(0) @binding(7) var<storage, read_write> details_image: array<vec4f>;
 @group(0) @binding(9) var<storage, read> distance_image: array<f32>;
 
@@ -24,7 +25,7 @@ var<private> coarse_weight: array<vec4f, MAX_QUADS>;
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
-// The sheet, blend or foot so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
+// The sheet or blend so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
 var<private> details: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
@@ -93,7 +94,7 @@ fn add_to_sheets(tile: Tile, level: u32) {
             for (var c = 0u; c < QUAD; c++) {
                 if weight[c] > 0.0 {
                     let piece = winner_piece[n][c];
-                    let vessel = vessel_of_slot[parameters.levels[level].first_slot + piece / 2u];
+                    let vessel = projected[parameters.levels[level].first_slot + piece / 2u].vessel;
                     let q = vec2f(quad_x[a][c], row_y[r]);
                     let found = decide(level, winner_key[n][c], piece, vessel, q);
                     // A pixel shows lumen if every level that it blends shows lumen.
@@ -118,7 +119,7 @@ fn add_to_sheets(tile: Tile, level: u32) {
     }
 }
 
-// The foot of the level with the larger weight.
+// Writes the foot of the level with the larger weight so far.
 fn put_feet(tile: Tile, level: u32) {
     for (var r = 0u; r < ROWS; r++) {
         for (var a = 0u; a < ACROSS; a++) {
@@ -127,9 +128,10 @@ fn put_feet(tile: Tile, level: u32) {
             for (var c = 0u; c < QUAD; c++) {
                 let piece = winner_piece[n][c];
                 let slot = parameters.levels[level].first_slot + piece / 2u;
-                if weight[c] > 0.0 && ruling_slot[n][c] == slot {
+                let pixel = pixel_of(tile, a, r, c);
+                if weight[c] > 0.0 && ruling_slot[n][c] == slot && in_view(pixel) {
                     let q = vec2f(quad_x[a][c], row_y[r]);
-                    details[n][c] = foot_of(decide(level, winner_key[n][c], piece, vessel_of_slot[slot], q));
+                    foot_image[place_of(pixel)] = foot_of(decide(level, winner_key[n][c], piece, projected[slot].vessel, q));
                 }
             }
         }
@@ -196,8 +198,8 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
                 let pixel = pixel_of(tile, a, r, c);
                 if in_view(pixel) {
                     depth_image[place_of(pixel)] = blended[quad_of(a, r)][c];
-                    vessel_image[place_of(pixel)] = vessel_of_slot[ruling_slot[quad_of(a, r)][c]];
-                    if HAS_SHEET || HAS_BLEND || HAS_FOOT {
+                    vessel_image[place_of(pixel)] = projected[ruling_slot[quad_of(a, r)][c]].vessel;
+                    if HAS_SHEET || HAS_BLEND {
                         details_image[place_of(pixel)] = details[quad_of(a, r)][c];
                     }
                 }
@@ -235,7 +237,7 @@ fn blend_own(place: u32, decision: Decision, z: f32, winner: u32, q: vec2f) {
         details_image[place] = blend;
     }
     if HAS_FOOT {
-        details_image[place] = foot_of(decision);
+        foot_image[place] = foot_of(decision);
     }
 }
 
@@ -258,7 +260,7 @@ fn depth(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) t
                 if in_view(pixel) {
                     let n = quad_of(a, r);
                     let q = vec2f(quad_x[a][c], row_y[r]);
-                    let vessel = vessel_of_slot[parameters.levels[0].first_slot + winner_piece[n][c] / 2u];
+                    let vessel = projected[parameters.levels[0].first_slot + winner_piece[n][c] / 2u].vessel;
                     let decision = decide(0u, winner_key[n][c], winner_piece[n][c], vessel, q);
                     let winner = winner_piece[n][c] + 2u * parameters.levels[0].first_slot;
                     blend_own(place_of(pixel), decision, winner_z[n][c], winner, q);

@@ -30,6 +30,8 @@ pub mod rim;
 #[doc(hidden)]
 pub mod silhouette;
 #[doc(hidden)]
+pub mod steady;
+#[doc(hidden)]
 pub mod surface;
 mod table;
 #[doc(hidden)]

@@ -23,6 +23,8 @@ pub enum Image {
     Blend,
     /// Arc length (mm) and distance beyond the wall (mm) of the piece shown, four f32 (`stages::depth::Foot`).
     Foot,
+    /// Depth of the cut surface in the view before (mm), f32; only in a turn (`stages::steady`).
+    Before,
     /// Bits that mark jumps of the cut surface's depth, u32 (`stages::leap`).
     Leap,
     /// Shares of the cut surface and its silhouettes that are shown, and factors on colours, 0 to 1, four f32 (`stages::focus`).
@@ -45,7 +47,7 @@ pub enum Image {
 
 impl Image {
     /// Every image.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Distance,
         Self::UnfilteredDepth,
         Self::Depth,
@@ -53,6 +55,7 @@ impl Image {
         Self::Sheet,
         Self::Blend,
         Self::Foot,
+        Self::Before,
         Self::Leap,
         Self::Focus,
         Self::Rim,
@@ -147,6 +150,8 @@ pub enum Stage {
     Leap,
     /// Smooths the depth with a Gaussian.
     DepthFilter,
+    /// Holds the depth near that of the view before in a turn.
+    Steady,
     /// Computes how much of the cut surface is shown around the vessels.
     Focus,
     /// Computes how much the cut surface is darkened where it lies deeper than its surroundings.
@@ -171,13 +176,14 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Levels,
         Self::Projection,
         Self::Distance,
         Self::Depth,
         Self::Leap,
         Self::DepthFilter,
+        Self::Steady,
         Self::Focus,
         Self::Occlusion,
         Self::FarRim,
@@ -197,6 +203,7 @@ impl Stage {
             Self::Projection => "projection",
             Self::Distance => "distance",
             Self::Depth => "depth",
+            Self::Steady => "steady",
             Self::Leap => "leap",
             Self::DepthFilter => "depth_filter",
             Self::Focus => "focus",
@@ -219,7 +226,7 @@ impl Stage {
             Self::Distance | Self::Occlusion => 8,
             Self::Depth => 12,
             Self::Leap | Self::Focus | Self::FarRim | Self::Surface => 4,
-            Self::DepthFilter | Self::Silhouette | Self::Body | Self::Rim => 2,
+            Self::Steady | Self::DepthFilter | Self::Silhouette | Self::Body | Self::Rim => 2,
             Self::Context => 14,
             Self::Composite => 10,
         }
@@ -232,6 +239,7 @@ impl Stage {
             Self::Focus => &[Image::Leap],
             Self::Rim => &[Image::Foot, Image::Vessel],
             Self::Depth => &[Image::Distance],
+            Self::Steady => &[Image::UnfilteredDepth, Image::Depth, Image::Foot, Image::Before],
             Self::Leap => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet],
             Self::DepthFilter => &[Image::UnfilteredDepth, Image::Vessel],
             Self::Occlusion => &[Image::UnfilteredDepth, Image::Depth, Image::Focus],
@@ -250,6 +258,7 @@ impl Stage {
             Self::Levels | Self::Projection | Self::Blocks => &[],
             Self::Distance => &[Image::Distance],
             Self::Depth => &[Image::UnfilteredDepth, Image::Vessel, Image::Sheet, Image::Blend, Image::Foot],
+            Self::Steady => &[Image::Depth],
             Self::Leap => &[Image::Leap],
             Self::DepthFilter => &[Image::Depth],
             Self::Focus | Self::Occlusion | Self::FarRim => &[Image::Focus],
@@ -275,10 +284,11 @@ impl Stage {
             (Self::Depth, true),
             (Self::Leap, has_leaps),
             (Self::DepthFilter, settings.depth_filter),
+            (Self::Steady, wanted.has(Image::Before)),
             (Self::Focus, has_focus || ((has_reach || settings.occlusion > 0.0) && draws)),
             (Self::Occlusion, settings.occlusion > 0.0 && draws),
             (Self::FarRim, settings.far_rim > 0.0 && draws_leaps && has_leaps && has_reach && draws),
-            (Self::Rim, Self::has_foot(settings, wanted)),
+            (Self::Rim, Self::has_rim(settings, wanted)),
         ];
         needed(&stages)
     }
@@ -289,6 +299,7 @@ impl Stage {
             self,
             Self::Distance
                 | Self::Depth
+                | Self::Steady
                 | Self::Leap
                 | Self::DepthFilter
                 | Self::Focus
@@ -310,9 +321,13 @@ impl Stage {
         wanted.has(Image::Blend) && !shows_volume
     }
 
-    /// Whether the stage `depth` writes the foot, from which a picture's rim is made. On the GPU it has the buffer of the
-    /// context, which is made later.
+    /// Whether the stage `depth` writes the foot, for a picture's rim or the stage `steady`. On the GPU it has the buffer of
+    /// the context, which is made later.
     pub const fn has_foot(settings: &Settings, wanted: ImageSet) -> bool {
+        wanted.has(Image::Before) || Self::has_rim(settings, wanted)
+    }
+
+    const fn has_rim(settings: &Settings, wanted: ImageSet) -> bool {
         settings.rim.is_some() && (wanted.has(Image::Picture) || wanted.has(Image::Rim))
     }
 

@@ -38,23 +38,23 @@ fn followed(ray: vec3f, found: Met, end: f32) -> f32 {
     if before <= 0.0 {
         return found.away;
     }
+    var found_end = HUGE;
     var n = 0.0;
     loop {
         let last = found.away + n * tube.origin.w;
         let away = found.away + (n + 1.0) * tube.origin.w;
-        if away > end {
-            return HUGE;
-        }
         let here = within_lumen(ray, away, row);
-        if here >= HUGE {
-            return HUGE;
+        if away > end || here >= HUGE {
+            break;
         }
         if here <= 0.0 {
-            return last + tube.origin.w * before / (before - here);
+            found_end = last + tube.origin.w * before / (before - here);
+            break;
         }
         before = here;
         n += 1.0;
     }
+    return found_end;
 }
 
 @compute @workgroup_size(8, 8)

@@ -8,6 +8,7 @@ use lumencut_core::pipeline::{CpuRenderer, Request};
 use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::rim::RimColors;
+use lumencut_core::stages::steady::Before;
 use lumencut_phantom::Phantom;
 use lumencut_scenes::compare::assert_equal;
 use lumencut_scenes::tolerances::{CONTEXT_OF_FRAME, DISTANCE};
@@ -33,13 +34,19 @@ impl BothSides {
     pub(super) fn on_gpu(&mut self, camera: &Camera, settings: &Settings) -> Frame {
         let scene = Scene::new(self.phantom.volume().unwrap(), self.phantom.tree.clone());
         let colors = self.colors();
-        let request = Request { rim: Some(&colors), ..Request::new(camera, settings) };
+        let depth = vec![0.0; camera.size().iter().product()];
+        // It counts only with a `turning_limit`.
+        let before = Some(Before { camera, depth: &depth });
+        let request = Request { rim: Some(&colors), before, ..Request::new(camera, settings) };
         pollster::block_on(self.gpu.render(&scene, &request)).unwrap()
     }
 
     pub(super) fn on_cpu(&self, camera: &Camera, settings: &Settings) -> Frame {
         let colors = self.colors();
-        let request = Request { rim: Some(&colors), ..Request::new(camera, settings) };
+        let depth = vec![0.0; camera.size().iter().product()];
+        // It counts only with a `turning_limit`.
+        let before = Some(Before { camera, depth: &depth });
+        let request = Request { rim: Some(&colors), before, ..Request::new(camera, settings) };
         CpuRenderer::default().render(&self.scene(), &request).unwrap()
     }
 

@@ -166,7 +166,7 @@ fn everything() -> Settings {
     with(|s| {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
         s.focus = Some(Focus { margin: 1.0, fade: 20.0 });
-        s.rim = Some(RimValue::Diameter);
+        (s.rim, s.turning_limit) = (Some(RimValue::Diameter), Some(4.0));
         s.occlusion = 0.6;
         s.context = Some(Context { body: true, ..Context::default() });
         s.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });

@@ -17,6 +17,7 @@ use lumencut_core::stages::leap::LeapParameters;
 use lumencut_core::stages::occlusion::{Blur, OcclusionParameters};
 use lumencut_core::stages::rim::{RimParameters, RimStrip};
 use lumencut_core::stages::silhouette::SilhouetteParameters;
+use lumencut_core::stages::steady::SteadyParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
 use lumencut_core::stages::wall::WallParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
@@ -93,10 +94,10 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
             }
         ),
         host!("math/projection", Point { coarse, radius, fine, place }),
-        host!("math/projection", Along { next, arc_length }),
+        host!("math/projection", Along { next, arc_length, vessel }),
         host!(
             "math/levels",
-            Projected { point, radius, edge, before, inverse_length, arc_length, stands, padding }
+            Projected { point, radius, edge, before, inverse_length, arc_length, stands, vessel }
         ),
         host!("math/levels", Span { first, end, level, first_chosen, end_chosen }),
         host!(
@@ -107,6 +108,7 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
         host!("stages/occlusion", OcclusionParameters { blurs }),
         host!("stages/occlusion", Blur { weights, side, reach, padding }),
         host!("stages/far_rim", FarRimParameters { width, strength }),
+        host!("stages/steady", SteadyParameters { limit, slope }),
         host!("stages/leap", LeapParameters { pixel_spacing }),
         host!("stages/rim", RimParameters { near, far, per_side, most }),
         host!("stages/rim", RimStrip { first, last, per_mm }),

@@ -16,6 +16,7 @@ mod layouts;
 mod leap;
 mod placed;
 mod silhouette;
+mod steady;
 mod surface;
 mod ties;
 mod volume;

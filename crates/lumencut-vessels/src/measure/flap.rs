@@ -28,6 +28,9 @@ pub(crate) const GAP_MM: f64 = 4.0;
 /// Maximum relative difference of the diameter of a lumen from the median within `LEAST_LENGTH_MM`.
 const SIMILAR: f64 = 0.12;
 
+/// The other lumen moves at most by this fraction of its diameter from one section to the next, besides the distance.
+const MOVES: f64 = 0.5;
+
 /// Flaps are searched at this distance (mm), and in between next to those that are found.
 const EVERY_MM: f64 = 2.0;
 
@@ -83,6 +86,21 @@ fn leave_out_uneven(at: &[f64], found: &mut [LumenPair]) {
         for (pair, _) in found.iter_mut().zip(uneven).filter(|(_, is_uneven)| *is_uneven) {
             *pair = LumenPair::none(Flap::Uneven);
         }
+    }
+    leave_out_changing(at, found);
+}
+
+/// Leaves out stretches shorter than `LEAST_LENGTH_MM` that show the same other lumen: neighbours come and go.
+fn leave_out_changing(at: &[f64], found: &mut [LumenPair]) {
+    let seen: Vec<usize> = (0..found.len()).filter(|n| found[*n].found == Flap::Seen).collect();
+    let is_same = |a: &usize, b: &usize| {
+        let gap = at[*b] - at[*a];
+        gap <= GAP_MM && found[*a].other_moves(&found[*b]) <= gap + MOVES * found[*a].other_diameter()
+    };
+    let runs: Vec<Vec<usize>> = seen.chunk_by(is_same).map(<[usize]>::to_vec).collect();
+    let is_short = |run: &&Vec<usize>| at[run[run.len() - 1]] - at[run[0]] < LEAST_LENGTH_MM;
+    for n in runs.iter().filter(is_short).flatten() {
+        found[*n] = LumenPair::none(Flap::Uneven);
     }
 }
 

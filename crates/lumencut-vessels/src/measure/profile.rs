@@ -1,5 +1,6 @@
 //! The profile of a vessel: its lumen at each arc length.
 
+pub(crate) mod bright_wall;
 pub mod by_hand;
 pub mod cross_section;
 pub mod flap_stretch;

@@ -15,6 +15,9 @@ use lumencut_core::limits::Limits;
 /// Intensity of walls in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
+/// Intensity of plaque that takes up contrast medium or contains fine calcium (HU), and its standard deviation.
+pub const BRIGHT_WALL: Level = [150.0, 40.0];
+
 /// A volume may be in HU if its lumen is above `LUMEN` and its surroundings, from air to bone, are within `AROUND`.
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-1100.0, 400.0];
@@ -64,6 +67,10 @@ pub enum WallSource {
         /// The level estimated from the other vessels.
         by_others: PooledWall,
     },
+    /// [`BRIGHT_WALL`], because the sections show such a wall.
+    Bright,
+    /// [`CT_WALL`] or [`BRIGHT_WALL`]: diameters are the mean of both, as the sections do not show which it is.
+    PerhapsBright,
     /// No walls: the caller turned them off.
     NotAsked,
     /// No walls: the lumen is darker than its surroundings.

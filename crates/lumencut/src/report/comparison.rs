@@ -38,7 +38,7 @@ pub fn comparison_html(vessels: &[Compared]) -> Result<String> {
 
 fn page(vessel: &Compared) -> Result<String> {
     let [before, after] = vessel.scans.each_ref().map(|scan| escaped(scan));
-    let doubts: String = vessel.doubts.iter().map(|words| paragraph("doubt", words)).collect();
+    let doubts: String = vessel.all_doubts().into_iter().map(|words| paragraph("doubt", words)).collect();
     let typical = format!("Median difference: {} mm.", signed(vessel.comparison.typical));
     Ok(format!(
         "<section>\n<h1>{}: before and after</h1>\n{}<p>Before: {before}. After: {after}.</p>\n{doubts}{}{}\

@@ -109,8 +109,13 @@ fn contrast(profile: &Profile) -> String {
     contrasts.retain(|value| value.is_finite());
     let Some(contrast) = median(&mut contrasts) else { return "No contrast is known.".to_owned() };
     let ratio = if profile.noise > 0.0 { contrast / profile.noise } else { f64::INFINITY };
-    let is_in_hu =
-        matches!(profile.wall_source, WallSource::Hounsfield | WallSource::Pooled { given: None, .. });
+    let is_in_hu = matches!(
+        profile.wall_source,
+        WallSource::Hounsfield
+            | WallSource::Pooled { given: None, .. }
+            | WallSource::Bright
+            | WallSource::PerhapsBright
+    );
     format!(
         "Contrast to noise {}, contrast {} {}.",
         fixed(ratio, 0),

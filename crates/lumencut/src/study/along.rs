@@ -1,6 +1,6 @@
 //! Values along the shown vessels, for rims and network maps: from measured profiles, otherwise from radii.
 
-use lumencut_core::settings::RimValue;
+use lumencut_core::settings::{RimValue, Settings};
 use lumencut_vessels::measure::stenosis::Stenosis;
 use serde::Serialize;
 
@@ -45,6 +45,16 @@ impl Study {
         Ok(ValuesAlong::new(kind, &along.collect::<Vec<_>>())?)
     }
 
+    /// The values of the rim that settings choose.
+    pub(crate) fn of_rim(
+        &self,
+        settings: &Settings,
+        marked: &[VesselMessage],
+    ) -> Result<Option<ValuesAlong>> {
+        let Some(kind) = settings.rim else { return Ok(None) };
+        Ok(Some(self.along(kind, marked)?.ranged([settings.rim_low, settings.rim_high])?))
+    }
+
     fn graded_on(&self, line: usize, marked: &[VesselMessage]) -> Result<Vec<Stenosis>> {
         let Some(profile) = self.profiles.last_of(line) else { return Ok(Vec::new()) };
         let marks = marked.iter().filter(|vessel| vessel.line == line);
@@ -56,8 +66,7 @@ impl Study {
     /// What the colours of a view's rim mean. Fails with the reason if there is no rim.
     pub(crate) fn rim_legend(&self, message: &ViewMessage) -> Result<LegendMessage> {
         let none = || Failure::of_message("rim", &"none", "a rim of the cut surface");
-        let kind = message.view()?.settings.rim.ok_or_else(none)?;
-        let along = self.along(kind, &message.vessels)?;
+        let along = self.of_rim(&message.view()?.settings, &message.vessels)?.ok_or_else(none)?;
         along.rim()?;
         Ok(along.legend.into())
     }

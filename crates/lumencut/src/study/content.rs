@@ -21,6 +21,7 @@ use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::{HeldVolume, no_volume};
+use crate::study::known_names::KnownNames;
 use crate::study::without_bone::WithoutBone;
 use crate::suggested_names::{SuggestedName, suggested_names};
 use crate::value_unit::ValueUnit;
@@ -69,6 +70,7 @@ pub struct Content {
     pub(crate) named: Option<NamedTree>,
     pub(crate) can_reorder: bool,
     pub(crate) without_bone: WithoutBone,
+    pub(crate) known_names: KnownNames,
     windows: OnceLock<Option<Windows>>,
 }
 
@@ -105,7 +107,9 @@ pub(crate) struct VolumeReport {
     pub(crate) pixel_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
-    /// Notes for the user on its size and its values.
+    /// Doubt about its size or axes, which concerns every picture.
+    pub(crate) doubt: Option<String>,
+    /// Notes for the user, this doubt included.
     pub(crate) notes: Vec<String>,
 }
 
@@ -174,7 +178,7 @@ impl Content {
         let (lines, vessels) = named.measured_among();
         let tubes: Vec<_> = vessels.iter().map(|vessel| (vessel.points(), vessel.radius())).collect();
         let suggested = self.names_for(&tubes);
-        lines.iter().copied().zip(suggested).collect()
+        lines.iter().copied().zip(self.known_names.with(lines, suggested)).collect()
     }
 
     /// The suggested names of tubes; none while dark lumens are traced, because the names are those of vessels.
@@ -289,6 +293,7 @@ impl Content {
 impl VolumeReport {
     fn of(held: &HeldVolume) -> Result<Self> {
         let volume = held.volume()?;
+        let doubt = doubted_grid(held.size, held.world_from_index);
         Ok(Self {
             size: held.size,
             world_from_index: DMat4::from(held.world_from_index).transpose().to_cols_array_2d(),
@@ -296,7 +301,8 @@ impl VolumeReport {
             smallest_side: volume.smallest_side(),
             pixel_side: pixel_side(volume.smallest_side()),
             scan: held.scan.words(),
-            notes: doubted_grid(held.size, held.world_from_index).into_iter().collect(),
+            notes: doubt.iter().cloned().collect(),
+            doubt,
         })
     }
 }

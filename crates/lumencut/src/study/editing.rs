@@ -9,7 +9,7 @@ use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
 use crate::study::reshaping::Reshaping;
-use crate::study::trace_report::DoubtfulPlace;
+use crate::study::trace_report::{DoubtfulPlace, VesselDoubt};
 use crate::study::tracing::{HeldLine, TraceRequest, Watch};
 
 impl Study {
@@ -31,17 +31,18 @@ impl Study {
         self.trace_dark(message.document.dark);
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         draft.kind = self.content.kind();
-        let mut notes = Vec::new();
+        let (mut notes, mut doubts) = (Vec::new(), Vec::new());
         let is_traced = match &message.edit {
             Edit::AddBranches { seed } => {
-                self.add_branches(&mut draft, *seed, watch).map(|found| notes = found).map(|()| false)
+                self.add_branches(&mut draft, *seed, watch).map(|found| doubts = found).map(|()| false)
             }
             Edit::AddWholeVessel { click } => {
                 self.add_whole_vessel(&mut draft, &mut notes, (*click, watch)).map(|()| false)
             }
-            Edit::FindVessels { doubtful } => {
-                self.add_found(&mut draft, *doubtful, watch).map(|found| notes = found).map(|()| false)
-            }
+            Edit::FindVessels { doubtful } => self
+                .add_found(&mut draft, *doubtful, watch)
+                .map(|found| (notes, doubts) = found)
+                .map(|()| false),
             Edit::AddMask => self.add_mask(&mut draft, &mut notes, watch).map(|()| false),
             Edit::Cut { id, at } => self.cut_vessel(&mut draft, *id, *at).map(|()| false),
             Edit::Join { id, other } => self.join_vessels(&mut draft, *id, *other).map(|()| false),
@@ -67,7 +68,7 @@ impl Study {
         if let Some(told) = &mut told {
             told.doubts.extend(notes.iter().map(|note| DoubtfulPlace { words: note.clone(), at: None }));
         }
-        Ok(Edited { document, words: message.words(), added, without_marks, notes, told })
+        Ok(Edited { document, words: message.words(), added, without_marks, notes, doubts, told })
     }
 
     fn trace_clicked(&mut self, draft: &mut Draft, watch: Watch) -> Result<()> {
@@ -89,17 +90,26 @@ impl Study {
         Ok(())
     }
 
-    fn add_branches(&mut self, draft: &mut Draft, seed: WorldPoint, watch: Watch) -> Result<Vec<String>> {
+    fn add_branches(
+        &mut self,
+        draft: &mut Draft,
+        seed: WorldPoint,
+        watch: Watch,
+    ) -> Result<Vec<VesselDoubt>> {
         // Rejects a seed in bone or fat immediately, and not after a search of the whole scan.
         self.check_click(seed)?;
         Ok(add_held(draft, self.trace_from(seed, watch)?, "Branch"))
     }
 
-    /// Adds all vessels of the scan; returns notes.
-    fn add_found(&mut self, draft: &mut Draft, doubtful: bool, watch: Watch) -> Result<Vec<String>> {
+    fn add_found(
+        &mut self,
+        draft: &mut Draft,
+        doubtful: bool,
+        watch: Watch,
+    ) -> Result<(Vec<String>, Vec<VesselDoubt>)> {
         let (found, notes) = self.find_vessels(doubtful, watch)?;
         let name = draft.kind.words().name;
-        Ok([notes, add_held(draft, found, name)].concat())
+        Ok((notes, add_held(draft, found, name)))
     }
 
     fn add_mask(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
@@ -186,12 +196,12 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
 }
 
 /// Adds found vessels; returns the places from which confident ones are doubtful.
-fn add_held(draft: &mut Draft, found: Vec<HeldLine>, kind: &str) -> Vec<String> {
-    let mut notes = Vec::new();
+fn add_held(draft: &mut Draft, found: Vec<HeldLine>, kind: &str) -> Vec<VesselDoubt> {
+    let mut doubts = Vec::new();
     for HeldLine { line, places, doubt } in found {
         let vessel = draft.add_named(line, "", kind);
         vessel.doubt = doubt.map(str::to_owned);
-        notes.extend(places.iter().map(|doubt| format!("{}: {}", vessel.called(), doubt.words)));
+        doubts.extend(places.into_iter().map(|doubt| VesselDoubt::of(line, doubt)));
     }
-    notes
+    doubts
 }

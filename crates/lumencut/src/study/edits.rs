@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::document::{Document, WorldPoint};
 use crate::study::lines::NamedLine;
-use crate::study::trace_report::Told;
+use crate::study::trace_report::{Told, VesselDoubt};
 
 /// An edit of vessels. Clicks and stoppers are numbered from 0; arc lengths in mm.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -196,6 +196,8 @@ pub(crate) struct Edited {
     pub(crate) added: Vec<u32>,
     pub(crate) without_marks: Vec<u32>,
     pub(crate) notes: Vec<String>,
+    /// Places from which found vessels are doubtful.
+    pub(crate) doubts: Vec<VesselDoubt>,
     /// The report on the traced vessel, if it is a single one.
     pub told: Option<Told>,
 }

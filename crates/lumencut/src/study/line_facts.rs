@@ -33,7 +33,7 @@ pub(super) fn length_of(line: &Line) -> f64 {
 
 impl Study {
     /// Facts about lines, in order; only these lines count for the connected parts.
-    pub(crate) fn line_facts(&self, numbers: &[usize]) -> Result<Vec<LineFacts>> {
+    pub(crate) fn line_facts(&mut self, numbers: &[usize]) -> Result<Vec<LineFacts>> {
         let lines = numbers.iter().map(|number| self.lines.get(*number)).collect::<Result<Vec<_>>>()?;
         let points: Vec<_> = lines.iter().map(|line| &line.points[..]).collect();
         let mut part_of = vec![0; lines.len()];
@@ -46,6 +46,7 @@ impl Study {
         let tubes: Vec<_> =
             points.iter().zip(&radii).map(|(line, radius)| (*line, radius.as_deref())).collect();
         let suggested = self.content.names_for(&tubes);
+        let suggested = self.content.known_names.keep(numbers, suggested);
         let fact = |n: usize| LineFacts {
             line: numbers[n],
             length: length_of(&lines[n]),

@@ -71,11 +71,8 @@ impl Study {
         if self.content.tree().is_none() {
             view.settings.focus = None;
         }
-        let along = view
-            .settings
-            .rim
-            .map(|kind| self.along(kind, &message.vessels).and_then(|along| Ok(along.rim()?)));
-        view.rim = along.and_then(Result::ok);
+        let along = self.of_rim(&view.settings, &message.vessels).ok().flatten();
+        view.rim = along.and_then(|along| along.rim().ok());
         view.settings.rim = view.settings.rim.filter(|_| view.rim.is_some());
         Ok(view)
     }

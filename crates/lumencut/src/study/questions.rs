@@ -35,7 +35,7 @@ use crate::study::regions::{RegionRow, regions};
 use crate::study::report_messages::{Findings, ReportMessage};
 use crate::study::reshaping::Reshaping;
 use crate::study::session_files::SessionContent;
-use crate::study::settings::{LookRow, SettingRow, looks, rows};
+use crate::study::settings::{LookRow, PointMessage, SettingRow, looks, preset_points, rows};
 use crate::study::straightened::CprMessage;
 use crate::study::straightening::StraightenedPick;
 use crate::study::tracing::PathMessage;
@@ -266,6 +266,9 @@ at_once {
 
     /// The comparison of a vessel in two scans as a file, as of `lumencut compare-scans`.
     comparison_file { scans: ScansMessage, kind: String } -> String = scans.file(&kind)?;
+
+    /// The control points of a named transfer function in a window.
+    transfer_points { name: String, window: Window } -> Vec<PointMessage> = preset_points(&name, window)?;
 
     /// The table of settings.
     settings_table(_nothing: ()) -> Vec<SettingRow> = rows();

@@ -2,9 +2,10 @@
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{
-    Choices, Focus, Kind, LOOKS, Look, Setting, Settings, Slab, SlabMode, Value, Window, table,
+    Choices, ControlPoint, Focus, Kind, LOOKS, Look, Preset, Setting, Settings, Slab, SlabMode,
+    TransferFunction, Value, Window, table,
 };
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
 use crate::study::failure::{Failure, Result};
@@ -114,6 +115,7 @@ fn value(name: &str, kind: Kind, json: &Json) -> Result<Value> {
         Kind::Number => json.as_f64().map(Value::Number),
         Kind::Count => json.as_u64().and_then(|count| usize::try_from(count).ok()).map(Value::Count),
         Kind::Color(_) => serde_json::from_value(json.clone()).ok().map(Value::Color),
+        Kind::Transfer if json.is_array() => points(json).map(Value::Transfer),
         Kind::Choice | Kind::Transfer => json.as_str().map(|name| Value::Name(name.to_owned())),
         Kind::Window => pair(json).map(|[level, width]| Value::Window(Window { level, width })),
         Kind::Slab => slab(json)?.map(Value::Slab),
@@ -122,6 +124,26 @@ fn value(name: &str, kind: Kind, json: &Json) -> Result<Value> {
         Kind::Opacity => None,
     };
     read.ok_or_else(|| Failure::of_message(name, json, &format!("a value of the kind {}", kind.name())))
+}
+
+/// A transfer function, from its control points.
+fn points(json: &Json) -> Option<TransferFunction> {
+    let points: Vec<PointMessage> = serde_json::from_value(json.clone()).ok()?;
+    let point = |PointMessage(intensity, color, opacity)| ControlPoint { intensity, color, opacity };
+    Some(TransferFunction { points: points.into_iter().map(point).collect() })
+}
+
+/// A control point of a transfer function: intensity (unit of the volume), colour (RGB) and opacity per mm.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ControlPoint"))]
+pub(crate) struct PointMessage(f64, [u8; 3], f64);
+
+/// The control points of a named transfer function in a window. Fails for an unknown name.
+pub(crate) fn preset_points(name: &str, [level, width]: [f64; 2]) -> Result<Vec<PointMessage>> {
+    let preset = Preset::named("context_transfer", name)?;
+    let window = Window { level, width };
+    let points = preset.transfer_function(window).points;
+    Ok(points.iter().map(|point| PointMessage(point.intensity, point.color, point.opacity)).collect())
 }
 
 fn pair(json: &Json) -> Option<[f64; 2]> {
@@ -161,6 +183,25 @@ mod tests {
         assert_eq!(made.slab.map(|slab| slab.thickness), Some(5.0));
         assert_eq!(made.focus, Some(Focus { margin: 1.0, fade: 4.0 }));
         assert!(of(&json!({"context": null})).expect("settings").context.is_none());
+    }
+
+    #[test]
+    fn control_points_are_read_and_checked() {
+        let window = [300.0, 600.0];
+        let angio = preset_points("angio", window).expect("a preset");
+        let made = of(&json!({"context_transfer": angio, "context": "dvr"})).expect("settings");
+        let same = json!({"context_transfer": "angio", "context": "dvr", "context_window": [300.0, 600.0]});
+        assert_eq!(
+            made.context.expect("dvr").transfer,
+            of(&same).expect("settings").context.expect("dvr").transfer
+        );
+        assert!(preset_points("angia", window).is_err());
+        for wrong in
+            [json!([]), json!([[0.0, [1, 2, 300], 0.5]]), json!([[0.0, [1, 2, 3], 1.5]]), json!([[0.0]])]
+        {
+            let error = of(&json!({"context_transfer": wrong})).expect_err("wrong points");
+            assert!(error.subject.ends_with("context_transfer"), "{}", error.subject);
+        }
     }
 
     #[test]

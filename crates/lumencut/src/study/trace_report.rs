@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
-use lumencut_vessels::trace::clicks::doubts::Doubted;
+use lumencut_vessels::trace::clicks::doubts::{Doubt, Doubted};
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
@@ -31,6 +31,23 @@ pub(crate) struct DoubtfulPlace {
     pub words: String,
     /// The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line.
     pub at: Option<f64>,
+}
+
+/// A doubt about a vessel that was found, with its place.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(crate) struct VesselDoubt {
+    pub(crate) line: usize,
+    pub(crate) kind: String,
+    #[serde(flatten)]
+    pub(crate) place: DoubtfulPlace,
+}
+
+impl VesselDoubt {
+    pub(crate) fn of(line: usize, doubt: Doubt) -> Self {
+        let Doubt { words, kind, at } = doubt;
+        Self { line, kind: kind.to_owned(), place: DoubtfulPlace { words, at } }
+    }
 }
 
 impl Study {

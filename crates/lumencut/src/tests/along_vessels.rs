@@ -45,6 +45,22 @@ fn one_value_alone_gives_a_scale_of_half_a_millimetre() {
 }
 
 #[test]
+fn chosen_ends_of_the_colours_replace_those_of_the_values() {
+    let along = values(RimValue::Diameter, None, &[]);
+    let chosen = along.clone().ranged([Some(5.0), Some(8.0)]).unwrap();
+    assert_eq!(chosen.legend.ends, [5.0, 8.0]);
+    // Beyond the ends, the first and the last colour continue.
+    let colors = chosen.colours()[0].clone();
+    assert_eq!((colors[0], colors.last()), ([65, 61, 123, 255], Some(&[222, 245, 229, 255])));
+    assert_eq!(along.clone().ranged([None, Some(8.0)]).unwrap().legend.ends, [4.0, 8.0]);
+    assert_eq!(along.clone().ranged([None; 2]).unwrap(), along);
+    for ends in [[Some(8.0); 2], [Some(10.0), None], [None, Some(3.0)]] {
+        let error = along.clone().ranged(ends).unwrap_err();
+        assert!(error.to_string().contains("mm; expected rim_low below rim_high"), "{error}");
+    }
+}
+
+#[test]
 fn profiles_precede_radii_and_sections_that_do_not_count_have_no_value() {
     let mut tube = tube();
     let along = values(RimValue::Diameter, Some(&tube), &[]);

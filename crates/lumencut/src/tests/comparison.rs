@@ -39,6 +39,7 @@ fn words_table_json_and_report_state_the_same_change() {
     compared_by(1.3, |compared| {
         let lines = compared.lines();
         assert_eq!(lines[0], "another patient?");
+        assert_eq!(compared.all_doubts(), ["another patient?"]);
         assert!(lines[1].starts_with("wider from ") && lines[1].contains(" difference +"), "{lines:?}");
         assert!(compared.matched().starts_with("matched by given places, ± 1.0 mm along the vessel"));
         let csv = compared.csv();
@@ -60,8 +61,10 @@ fn words_table_json_and_report_state_the_same_change() {
 
 #[test]
 fn without_a_change_they_say_so() {
+    compared_by(1.002, |compared| assert_eq!(compared.all_doubts(), ["another patient?"]));
     compared_by(1.0, |compared| {
-        assert_eq!(compared.lines()[1], "no change beyond 2 standard deviations of both diameters");
+        assert!(compared.lines()[1].starts_with("both profiles are equal in every section"));
+        assert_eq!(compared.lines()[2], "no change beyond 2 standard deviations of both diameters");
         assert!(compared.csv().lines().skip(1).all(|row| row.ends_with(",0")));
         assert!(
             comparison_html(std::slice::from_ref(compared)).expect("a report").contains("No change beyond 2")

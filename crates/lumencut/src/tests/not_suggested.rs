@@ -84,7 +84,13 @@ fn a_vessel_that_only_gets_thinner_says_so() {
     }
     taper.flags.fill(0);
     let [reason] = &not_suggested(&taper, None, &[])[..] else { panic!("one reason") };
-    assert!(reason.contains("tapers towards its end"), "{reason}");
+    assert!(reason.contains("only tapers, to 6.80 mm at 60.0 mm"), "{reason}");
+    // A narrower place with a doubt is named: the sure sections are not the whole vessel.
+    for n in 80..90 {
+        (taper.area[n], taper.flags[n]) = (std::f64::consts::PI, CALCIUM);
+    }
+    let [narrower, _] = &not_suggested(&taper, None, &[])[..] else { panic!("two reasons") };
+    assert!(narrower.starts_with("Narrower, but not suggested: 2.00 mm at 4"), "{narrower}");
 }
 
 #[test]

@@ -99,6 +99,8 @@ fn every_source_is_stored() {
         WallSource::Given([45.0, 25.0]),
         pooled(None),
         pooled(Some([30.0, 10.0])),
+        WallSource::Bright,
+        WallSource::PerhapsBright,
         WallSource::NotAsked,
         WallSource::DarkLumen,
         WallSource::OtherUnit,

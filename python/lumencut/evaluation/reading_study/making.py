@@ -133,7 +133,7 @@ def _view(
     turned = Camera.anterior(tree, size).rotated(degrees=turn, axis="up")
     camera = Camera.fitted(tree, turned.direction, turned.up, size)
     if turn in _TURNS[:TASK_VIEWS]:
-        frames = [RENDERED[name].surface(renderer, camera, settings) for name in DEPTH_METHODS]
+        frames = [RENDERED[name].surface(renderer, camera, settings, None) for name in DEPTH_METHODS]
         return _View(camera, dict(zip(TASKS, pairs(tree, camera, frames, len(TASKS), draw), strict=True)))
     return _View(camera, {})
 

@@ -94,6 +94,9 @@ export type ComparedScans = {
   readonly axis: Axis;
 };
 
+/** A control point of a transfer function: intensity (unit of the volume), colour (RGB) and opacity per mm. */
+export type ControlPoint = readonly [number, Vector, number];
+
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -268,6 +271,8 @@ export type Edited = {
   readonly added: ReadonlyArray<number>;
   readonly without_marks: ReadonlyArray<number>;
   readonly notes: ReadonlyArray<string>;
+  /** Places from which found vessels are doubtful. */
+  readonly doubts: ReadonlyArray<VesselDoubt>;
   /** The report on the traced vessel, if it is a single one. */
   readonly told: Told | null;
 };
@@ -1112,6 +1117,16 @@ export type VesselDocument = {
   readonly dark: boolean;
 };
 
+/** A doubt about a vessel that was found, with its place. */
+export type VesselDoubt = {
+  readonly line: number;
+  readonly kind: string;
+  /** A sentence that states the reason of the doubt. */
+  readonly words: string;
+  /** The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line. */
+  readonly at: number | null;
+};
+
 export type VesselReport = {
   readonly line: number;
   /** Name; may be empty. */
@@ -1144,7 +1159,9 @@ export type VolumeReport = {
   readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
-  /** Notes for the user on its size and its values. */
+  /** Doubt about its size or axes, which concerns every picture. */
+  readonly doubt: string | null;
+  /** Notes for the user, this doubt included. */
   readonly notes: ReadonlyArray<string>;
 };
 
@@ -1584,6 +1601,14 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** The control points of a named transfer function in a window. */
+  readonly transfer_points: {
+    readonly message: {
+      readonly name: string;
+      readonly window: Pair;
+    };
+    readonly answer: ReadonlyArray<ControlPoint>;
+  };
   /** The table of settings. */
   readonly settings_table: {
     readonly message: null;
@@ -1665,6 +1690,7 @@ export const TURNS = {
   motion_between: { when: 'at once', words: null },
   compare_scans: { when: 'at once', words: null },
   comparison_file: { when: 'at once', words: null },
+  transfer_points: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },
   regions: { when: 'at once', words: null },

@@ -8,12 +8,15 @@ use crate::measure::section::flags::{CALCIUM, METAL, NEIGHBOR};
 
 use super::struts::lies_in_metal;
 
-/// Maximum distance (mm) between two rings of one stent; a longer stretch of metal is a stent.
+/// Maximum distance (mm) between two rings of one stent; a longer stretch of metal is a stent. Single sections may miss struts.
 const RINGS: f64 = 6.0;
 
 /// Maximum distance (mm) between two rings if all sections between them contain bright material, and from a stent to
 /// its end. Blurred struts look like calcium, but calcium does not start and end with metal.
 const BRIGHT_BETWEEN: f64 = 40.0;
+
+/// Maximum distance (mm) between two stents if what lies between may be struts.
+const BETWEEN_STENTS: f64 = 80.0;
 
 /// What the struts of a stent may look like.
 const LIKE_STRUTS: u32 = CALCIUM | NEIGHBOR;
@@ -34,8 +37,8 @@ pub(crate) fn flag_stents(bench: &Bench, places: &[SectionPlane], sections: &mut
 
 /// Flags the sections between and next to rings of a stent as metal instead of calcium or a vessel beside.
 fn join_rings(at: &[f64], flags: &mut [u32]) {
-    join(at, flags, |_, length| length <= RINGS);
-    for run in runs(flags).into_iter().filter(|run| is_stent(at, run)) {
+    join(at, flags, |between| between.length <= RINGS);
+    for run in runs(flags, METAL).into_iter().filter(|run| is_stent(at, run)) {
         let [first, last] = [run.start, run.end - 1];
         let before = (0..first).rev().take_while(|n| at[first] - at[*n] <= BRIGHT_BETWEEN);
         let after = (last + 1..at.len()).take_while(|n| at[*n] - at[last] <= BRIGHT_BETWEEN);
@@ -44,31 +47,41 @@ fn join_rings(at: &[f64], flags: &mut [u32]) {
             flags[n] |= METAL;
         }
     }
-    join(at, flags, |is_bright, length| is_bright && length <= BRIGHT_BETWEEN);
+    join(at, flags, |between| match between.stents {
+        true => between.longest_dark <= RINGS && between.length <= BETWEEN_STENTS,
+        false => between.longest_dark == 0.0 && between.length <= BRIGHT_BETWEEN,
+    });
     for flags in flags.iter_mut().filter(|flags| **flags & METAL != 0) {
         *flags &= !LIKE_STRUTS;
     }
 }
 
-/// Joins neighbouring stretches of metal. `is_one` decides by whether all sections between them may contain struts, and by
-/// their distance (mm). Between stents, a vessel beside may be struts.
-fn join(at: &[f64], flags: &mut [u32], is_one: impl Fn(bool, f64) -> bool) {
-    for two in runs(flags).windows(2) {
-        let between = two[0].end..two[1].start;
-        let like = if two.iter().all(|run| is_stent(at, run)) { LIKE_STRUTS } else { CALCIUM };
-        let is_bright = flags[between.clone()].iter().all(|flags| flags & like != 0);
-        if is_one(is_bright, at[two[1].start] - at[two[0].end - 1]) {
-            for flags in &mut flags[between] {
+struct Between {
+    length: f64,
+    longest_dark: f64,
+    stents: bool,
+}
+
+fn join(at: &[f64], flags: &mut [u32], is_one: impl Fn(&Between) -> bool) {
+    for two in runs(flags, METAL).windows(2) {
+        let [first, last] = [two[0].end - 1, two[1].start];
+        let stents = two.iter().all(|run| is_stent(at, run));
+        let like = METAL | if stents { LIKE_STRUTS } else { CALCIUM };
+        let bright = runs(&flags[first..=last], like);
+        let dark = bright.windows(2).map(|two| at[first + two[1].start] - at[first + two[0].end - 1]);
+        let between =
+            Between { length: at[last] - at[first], longest_dark: dark.fold(0.0, f64::max), stents };
+        if is_one(&between) {
+            for flags in &mut flags[first..last] {
                 *flags |= METAL;
             }
         }
     }
 }
 
-/// The stretches of metal.
-fn runs(flags: &[u32]) -> Vec<Range<usize>> {
+fn runs(flags: &[u32], of: u32) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
-    for n in (0..flags.len()).filter(|n| flags[*n] & METAL != 0) {
+    for n in (0..flags.len()).filter(|n| flags[*n] & of != 0) {
         match found.last_mut() {
             Some(run) if run.end == n => run.end = n + 1,
             _ => found.push(n..n + 1),

@@ -1,5 +1,7 @@
 //! What is found of a second lumen behind a flap.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 /// Whether both lumens of a dissected vessel are visible in a section, or why not.
@@ -40,5 +42,17 @@ pub(crate) struct LumenPair {
 impl LumenPair {
     pub(crate) fn none(found: Flap) -> Self {
         Self { found, contours: Default::default(), areas: [[f64::NAN; 2]; 2] }
+    }
+
+    pub(super) fn other_moves(&self, next: &Self) -> f64 {
+        let [here, there] = [self, next].map(|pair| {
+            let corners = &pair.contours[1];
+            corners.iter().sum::<DVec3>() / corners.len().max(1) as f64
+        });
+        here.distance(there)
+    }
+
+    pub(super) fn other_diameter(&self) -> f64 {
+        2.0 * (self.areas[1][0] / PI).sqrt()
     }
 }

@@ -23,7 +23,7 @@ const REFUTED: f64 = 3.0;
 const UNSEEN: f64 = 1.0;
 
 impl PreparedVessel {
-    fn is_in_lung(&self) -> bool {
+    pub(super) fn is_in_lung(&self) -> bool {
         self.wall.is_some_and(|wall| wall.is_in_lung)
     }
 
@@ -60,7 +60,7 @@ impl PreparedVessel {
         let two = |n: usize| Some((sections[n].fit?, bare.sections[n].fit?));
         let pairs: Vec<Option<(Fit, Fit)>> =
             (0..sections.len()).map(|n| two(n).filter(|(fit, _)| is_in_lung(&self.scale, fit))).collect();
-        if is_wall_seen(&pairs, bare.every) {
+        if better(&pairs, bare.every) > REFUTED {
             return Ok(());
         }
         for (section, pair) in sections.iter_mut().zip(pairs) {
@@ -76,28 +76,28 @@ fn is_in_lung(scale: &Scale, fit: &Fit) -> bool {
     scale.value(fit.background) < LUNG
 }
 
-/// Whether the sections, of which `every` share voxels, fit better with a wall.
-fn is_wall_seen(pairs: &[Option<(Fit, Fit)>], every: usize) -> bool {
+/// How much better the first fits of sections are than the second ones, in standard errors; `every` sections share voxels.
+pub(super) fn better(pairs: &[Option<(Fit, Fit)>], every: usize) -> f64 {
     let excess: Vec<f64> = pairs
         .iter()
         .flatten()
-        .map(|(with, without)| without.missed.powi(2) - with.missed.powi(2))
+        .map(|(first, second)| second.missed.powi(2) - first.missed.powi(2))
         .filter(|excess| excess.is_finite())
         .collect();
     let count = excess.len() as f64;
     let mean = excess.iter().sum::<f64>() / count;
     let variance = excess.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / count;
     let apart = (count / every as f64).max(1.0);
-    mean > REFUTED * (variance / apart).sqrt()
+    mean / (variance / apart).sqrt()
 }
 
 /// Takes the mean of both diameters, and half of their difference into the uncertainty.
-fn include(section: &mut Section, bare: &Fit) {
+pub(super) fn include(section: &mut Section, other: &Fit) {
     let Some(fit) = &section.fit else { return };
-    let [with, without] = [fit, bare].map(|fit| fit.ellipse.equivalent_diameter());
-    section.scale(f64::midpoint(with, without) / with);
+    let [own, its] = [fit, other].map(|fit| fit.ellipse.equivalent_diameter());
+    section.scale(f64::midpoint(own, its) / own);
     let Some(fit) = &mut section.fit else { return };
-    let half = 0.5 * (without - with).abs();
+    let half = 0.5 * (its - own).abs();
     fit.parts.wall = fit.parts.wall.hypot(half);
     fit.parts.point_spread = fit.parts.point_spread.clamp(-half, half);
     fit.uncertainty = fit.parts.total();

@@ -35,15 +35,18 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     let prepared = PreparedVessel::new(&voxels, vessel, request)?;
     let found = match request.fwhm {
         None if request.tree.is_empty() => {
-            let spread = match prepared.point_spread(&voxels, request.stop)? {
-                SpreadEstimate::Width(found) => spread_of(&found, found.on()),
-                SpreadEstimate::Nothing(reason) => assumed(&voxels, prepared.assumed, reason),
-            };
-            TreeFindings { spread, walls: Vec::new() }
+            TreeFindings { spread: own_spread(&prepared, &voxels, request.stop)?, walls: Vec::new() }
         }
         _ => tree_findings(volume, request)?,
     };
     prepared.profile(&voxels, vessel, request, found)
+}
+
+pub(super) fn own_spread(prepared: &PreparedVessel, voxels: &Voxels, stop: Stop) -> Result<PointSpread> {
+    Ok(match prepared.point_spread(voxels, stop)? {
+        SpreadEstimate::Width(found) => spread_of(&found, found.on()),
+        SpreadEstimate::Nothing(reason) => assumed(voxels, prepared.assumed, reason),
+    })
 }
 
 /// Like [`measure`], but uses an existing result of [`tree_findings`]. Errors: those of [`measure`].

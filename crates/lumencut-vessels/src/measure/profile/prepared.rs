@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
+use super::bright_wall::{BrightWall, include_bright};
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::assumed_spread::AssumedSpread;
@@ -35,7 +36,7 @@ use crate::measure::section::{SectionPlane, Track, known_radius};
 use crate::measure::uncertainty::texture::{Pairs, Texture};
 use crate::measure::wall::pool::{is_apart, pooled, unpooled_level};
 use crate::measure::wall::tree::{PooledWall, wall_beside};
-use crate::measure::wall::{WallSource, expected, is_airway, is_below_lumen, is_hounsfield};
+use crate::measure::wall::{BRIGHT_WALL, WallSource, expected, is_airway, is_below_lumen, is_hounsfield};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
@@ -71,7 +72,7 @@ pub(crate) struct PreparedVessel {
     /// The point spread to assume if none is given or found.
     pub(super) assumed: AssumedSpread,
     pub(super) wall: Option<KnownWall>,
-    wall_source: WallSource,
+    pub(super) wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
     /// Separate fits for the assumed point spread, and for the estimated or given one.
@@ -186,6 +187,11 @@ impl PreparedVessel {
         Self { wall: None, ..self.part(|_| true) }
     }
 
+    pub(super) fn with_bright_wall(&self) -> Self {
+        let wall = Some(KnownWall::of(BRIGHT_WALL, &self.scale));
+        Self { wall, wall_source: WallSource::Bright, ..self.part(|_| true) }
+    }
+
     /// A wall that may exist although it is as bright as its surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
@@ -247,6 +253,14 @@ impl PreparedVessel {
             self.include_thin_walls(voxels, &mut read.sections, &spread, request.stop)?;
         }
         let mut sections = std::mem::take(&mut read.sections);
+        let bright = self.bright_wall(voxels, &sections, &spread, request.stop)?;
+        if let Some(BrightWall::Shown(bright, spread)) = bright {
+            let findings = TreeFindings { spread, walls: Vec::new() };
+            return bright.profile(voxels, vessel, request, findings);
+        }
+        if let Some(BrightWall::Possible(bright)) = &bright {
+            include_bright(&mut sections, bright);
+        }
         let others = Lumen::of_others(request.tree, vessel);
         for (n, section) in sections.iter_mut().enumerate() {
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
@@ -277,6 +291,7 @@ impl PreparedVessel {
         flag_stents(bench, &self.places, &mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,
+            _ if bright.is_some() => WallSource::PerhapsBright,
             Some(by_others) => self.wall_source.pooled(by_others),
             None => self.wall_source,
         };
@@ -345,6 +360,16 @@ fn no_lumen(scale: &Scale) -> Error {
         format!("no wall around it: {} on the vessel and {} next to it", in_words(lumen), in_words(outside));
     let expected = "a lumen around the points of the vessel";
     let mend = "centerlines must lie in the lumen or within one radius of it";
+    Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
+}
+
+fn too_noisy(scale: &Scale, noise: f64) -> Error {
+    let [lumen, outside, noise] =
+        [scale.value(1.0), scale.outside, noise * scale.contrast.abs()].map(in_words);
+    let found =
+        format!("no wall around it: {lumen} on the vessel and {outside} next to it, with noise of {noise}");
+    let expected = "a lumen that differs from its surroundings by twice the noise";
+    let mend = "smooth the volume, and check that the centerlines lie in the lumen";
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }
 

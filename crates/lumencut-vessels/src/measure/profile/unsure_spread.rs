@@ -50,7 +50,7 @@ impl PreparedVessel {
             for ((section, other), changes) in sections.iter().zip(&other.sections).zip(&mut changes) {
                 let (Some(fit), Some(other)) = (&section.fit, &other.fit) else { continue };
                 let [before, after] = [fit, other].map(diameter);
-                if after < SAME_LUMEN * before && before < SAME_LUMEN * after {
+                if is_same_lumen(before, after) {
                     changes.push(sign * (after - before));
                 }
             }
@@ -69,6 +69,10 @@ impl PreparedVessel {
     }
 }
 
-fn diameter(fit: &Fit) -> f64 {
+pub(super) fn is_same_lumen(before: f64, after: f64) -> bool {
+    after < SAME_LUMEN * before && before < SAME_LUMEN * after
+}
+
+pub(super) fn diameter(fit: &Fit) -> f64 {
     fit.ellipse.equivalent_diameter()
 }

@@ -75,9 +75,9 @@ impl Profile {
         narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest_measured().is_none())
     }
 
-    /// The narrowest usable place, and its hindrances, if a wider place is suggested.
+    /// The narrowest usable place, and its hindrances, if a wider place is suggested, or is the end of a tapering vessel.
     pub fn passed_over(&self) -> Option<(Spot, u32)> {
-        let least = NARROWER * self.narrowest()?.diameter;
+        let least = NARROWER * self.narrowest().or_else(|| self.thin_end())?.diameter;
         let hindrances = self.hindrances();
         let (n, spot) = self.spots(|_| true).into_iter().min_by(thinner)?;
         (spot.diameter < least).then_some((spot, hindrances[n]))

@@ -2,6 +2,7 @@
 
 use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
+use crate::measure::fit::sections::noise;
 use crate::measure::model::ellipse::Ellipse;
 use crate::measure::model::wall::{KnownWall, Wall};
 
@@ -18,6 +19,12 @@ const SHARED_WIDTHS: [f64; 2] = [5.0, 2.0];
 /// Minimum fraction of the sections in which the wall must be visible.
 const MIN_VISIBLE_WALLS: f64 = 1.0 / 3.0;
 
+/// A fit shows no wall if its residuals exceed this multiple of the median.
+const NOT_DESCRIBED: f64 = 2.0;
+
+/// Plaque does not share its level: it differs from the expected one by this multiple of both standard deviations.
+const OTHER_LEVEL: f64 = 2.0;
+
 /// Pooled wall at each section. `inflation` is the variance factor of correlated noise, `known` the prior
 /// used in the fits, and `expected` the current prior level, which other vessels may have refined.
 pub(crate) fn pooled(
@@ -28,12 +35,15 @@ pub(crate) fn pooled(
     inflation: f64,
 ) -> Vec<KnownWall> {
     let apart = independent(at, SHARED_WIDTHS[1]) / inflation;
-    let walls: Vec<(f64, Ellipse, Wall)> = at
-        .iter()
-        .zip(fits)
-        .filter_map(|(at, fit)| fit.and_then(|fit| Some((*at, fit.ellipse, fit.wall?))))
-        .collect();
-    let [mean, deviation] = level_by(at, fits, known, WeightedLevel::new(expected), inflation).level();
+    let most = NOT_DESCRIBED * noise(fits);
+    let shown = |(at, fit): (&f64, &Option<Fit>)| {
+        let fit = fit.filter(|fit| fit.missed <= most)?;
+        Some((*at, fit.ellipse, fit.wall?))
+    };
+    let walls: Vec<(f64, Ellipse, Wall)> = at.iter().zip(fits).filter_map(shown).collect();
+    let is_usual = |wall: &Wall| own_level(wall, known).is_none_or(|own| !is_other(own, known.level));
+    let [mean, deviation] =
+        level_by(at, fits, (known, WeightedLevel::new(expected)), inflation, is_usual).level();
     let level = [mean, deviation.max(LEAST_LEVEL)];
     let thickness = |here: f64, lumen: &Ellipse| {
         let first = known.beforehand(lumen);
@@ -67,7 +77,8 @@ pub(crate) fn unpooled_level(
     known: &KnownWall,
     inflation: f64,
 ) -> Option<Level> {
-    let weighted = level_by(at, fits, known, WeightedLevel { precision: 0.0, weighted: 0.0 }, inflation);
+    let weighted =
+        level_by(at, fits, (known, WeightedLevel { precision: 0.0, weighted: 0.0 }), inflation, |_| true);
     let [mean, deviation] = weighted.level();
     (weighted.precision > 0.0).then_some([mean, deviation.max(LEAST_LEVEL)])
 }
@@ -75,15 +86,28 @@ pub(crate) fn unpooled_level(
 fn level_by(
     at: &[f64],
     fits: &[Option<Fit>],
-    known: &KnownWall,
-    mut first: WeightedLevel,
+    (known, mut first): (&KnownWall, WeightedLevel),
     inflation: f64,
+    is_one: impl Fn(&Wall) -> bool,
 ) -> WeightedLevel {
     let apart = independent(at, SHARED_WIDTHS[0]) / inflation;
-    for wall in fits.iter().flatten().filter_map(|fit| fit.wall) {
-        first.add(wall.level, known.level, apart);
+    let most = NOT_DESCRIBED * noise(fits);
+    for wall in fits.iter().flatten().filter(|fit| fit.missed <= most).filter_map(|fit| fit.wall) {
+        if is_one(&wall) {
+            first.add(wall.level, known.level, apart);
+        }
     }
     first
+}
+
+fn own_level(wall: &Wall, known: &KnownWall) -> Option<Level> {
+    let mut own = WeightedLevel { precision: 0.0, weighted: 0.0 };
+    own.add(wall.level, known.level, 1.0);
+    (own.precision > 0.0).then(|| own.level())
+}
+
+fn is_other([level, deviation]: Level, [expected, unsure]: Level) -> bool {
+    (level - expected).abs() > OTHER_LEVEL * deviation.hypot(unsure)
 }
 
 pub(crate) fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<Fit>]) -> bool {

@@ -29,6 +29,8 @@ const APART: f64 = 20.0;
 pub struct Doubt {
     /// A sentence that states the reason.
     pub words: String,
+    /// The reason in short: the same for all doubts of one kind.
+    pub kind: &'static str,
     /// The arc length (mm) from which, or up to which, the line is doubtful; None for the whole line.
     pub at: Option<f64>,
 }
@@ -49,7 +51,7 @@ impl Doubted<'_> {
     pub fn doubts(&self, voxels: &Voxels) -> Vec<Doubt> {
         if self.runs_across(voxels) {
             let words = "The path runs across the lumen, not along it: click in another slice.".to_owned();
-            return vec![Doubt { words, at: None }];
+            return vec![Doubt { words, kind: "runs across the lumen", at: None }];
         }
         let lengths = arc_lengths(&self.line.points);
         let change = level_change(voxels, self.line).map(|change| {
@@ -61,7 +63,7 @@ impl Doubted<'_> {
                 Polarity::Dark => "another lumen, or a leak",
             };
             let words = format!("Doubtful from {at:.0} mm on: {why}: {cause}.");
-            Doubt { words, at: Some(at) }
+            Doubt { words, kind: "changes its brightness", at: Some(at) }
         });
         let crossed = self.crossed(voxels, &lengths);
         let wander =
@@ -98,7 +100,7 @@ impl Doubted<'_> {
                 "the line crosses a {sheet} sheet ({within:.0} between {beside:.0}), a flap or a wall"
             );
             let words = format!("Doubtful {place}: {why}: perhaps another vessel or lumen.");
-            Doubt { words, at: Some(from) }
+            Doubt { words, kind: "crosses a flap or wall", at: Some(from) }
         };
         crossings.chunk_by(|a, b| lengths[b.at] - lengths[a.at] <= APART).map(tell).collect()
     }
@@ -113,7 +115,7 @@ impl Doubted<'_> {
         let words = detours.map(|(way, distance)| {
             format!("Doubtful: the line is {way:.0} mm long between points {distance:.0} mm apart: check its way, and add points along it.")
         });
-        words.map(|words| Doubt { words, at: None }).collect()
+        words.map(|words| Doubt { words, kind: "makes a detour", at: None }).collect()
     }
 
     fn guesses(&self, voxels: &Voxels, lengths: &[f64]) -> Vec<Doubt> {
@@ -124,7 +126,7 @@ impl Doubted<'_> {
             let [from, to] = [part.start, part.end - 1].map(|n| lengths[n]);
             let why = format!("no clear lumen is seen there (about {:.0})", quantile(&values, 0.5));
             let words = format!("Doubtful from {from:.0} to {to:.0} mm: {why}, so the line is a guess.");
-            Doubt { words, at: Some(from) }
+            Doubt { words, kind: "has no clear lumen", at: Some(from) }
         };
         let parts = stretches(self.bridged, |from, to| lengths[to] - lengths[from] <= APART);
         parts.iter().map(tell).collect()
@@ -149,5 +151,5 @@ fn wanders([from, to]: [f64; 2]) -> Doubt {
     } else {
         (format!("Doubtful up to {to:.0} mm: {why}."), to)
     };
-    Doubt { words, at: Some(at) }
+    Doubt { words, kind: "turns too tightly", at: Some(at) }
 }

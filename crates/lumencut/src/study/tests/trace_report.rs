@@ -128,7 +128,10 @@ fn a_found_vessel_has_the_doubts_of_a_traced_one() {
     let line = points(&study, found.document.vessels[0].line);
     let told = study.trace_report(&found.document, Some(found.document.vessels[0].id)).expect("a report");
     let [change] = told.expect("a vessel").doubts.try_into().expect("one doubt");
-    assert_eq!(found.notes[1..], [format!("Vessel 1: {}", change.words)]);
+    assert_eq!(found.notes.len(), 1, "{:?}", found.notes);
+    let [doubt] = &found.doubts[..] else { panic!("{:?}", found.doubts) };
+    assert_eq!((doubt.line, &doubt.kind[..]), (found.document.vessels[0].line, "changes its brightness"));
+    assert_eq!(doubt.place, change);
     let at =
         arc_lengths(&line).iter().position(|length| *length >= change.at.expect("a place")).expect("a point");
     assert!((line[at].z - 48.0).abs() < 3.0, "{}", line[at].z);

@@ -62,7 +62,8 @@ fn a_vessel_is_compared_with_sentences_places_and_a_chart() {
     let message = json!({"scans": scans(&json!({})), "size": [900.0, 300.0]});
     let found = asked("compare_scans", &message).expect("a comparison");
     let sentences = found["sentences"].as_array().expect("sentences");
-    assert_eq!(sentences[0], "no change beyond 2 standard deviations of both diameters");
+    assert_eq!(sentences[0], "both profiles are equal in every section: perhaps both are of one scan");
+    assert_eq!(sentences[1], "no change beyond 2 standard deviations of both diameters");
     assert_eq!(found["places"][10][0], found["places"][10][1]);
     let chart = found["chart"].as_str().expect("a chart");
     assert!(chart.starts_with("<svg xmlns=") && chart.contains("viewBox=\"0 0 900 300\""));

@@ -46,8 +46,15 @@ fn struts_that_look_like_calcium_at_the_end_of_a_stent_are_metal() {
 #[test]
 fn between_two_stents_a_vessel_beside_is_metal_too() {
     assert_eq!(between_stents(&[NEIGHBOR; 30]), [METAL; 30]);
-    assert_eq!(between_stents(&[NEIGHBOR; 50]), [NEIGHBOR; 50], "they are too far apart");
+    assert_eq!(between_stents(&[NEIGHBOR; 90]), [NEIGHBOR; 90], "they are too far apart");
     assert_eq!(between_stents(&[[NEIGHBOR; 10], [0; 10]].concat())[..10], [NEIGHBOR; 10]);
+}
+
+#[test]
+fn a_section_that_misses_the_struts_does_not_divide_a_stent() {
+    let missed = |count: usize| [vec![NEIGHBOR; 30], vec![0; count], vec![NEIGHBOR; 15]].concat();
+    assert_eq!(between_stents(&missed(2)), [METAL; 47]);
+    assert_eq!(between_stents(&missed(8)), missed(8), "a longer part is free");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{FirstFits, PreparedVessel, no_lumen};
+use super::{FirstFits, PreparedVessel, too_noisy};
 use crate::measure::along::all_sections::AllSections;
 use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::throats::Throats;
@@ -77,7 +77,7 @@ impl PreparedVessel {
         let FirstFits { fits, texture, .. } = first;
         let noise = noise(&fits);
         if LEAST_CONTRAST * noise > 1.0 {
-            return Err(no_lumen(&self.scale));
+            return Err(too_noisy(&self.scale, noise));
         }
         let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
         let inflation = self.inflation(bench, &texture);
