@@ -21,7 +21,7 @@ const REQUEST: FindRequest = FindRequest { smallest_radius: None, stop: &|| fals
 fn volume<'a>(phantom: &Phantom, voxels: &'a [i16]) -> Volume<'a> {
     let [ni, nj, _] = phantom.size;
     let strides = [1, ni, ni * nj];
-    Volume::new(Voxels::I16(voxels), phantom.size, strides, phantom.world_from_index).unwrap()
+    Volume::new(Voxels::I16(voxels), phantom.size, strides, phantom.world_from_index).expect("a volume")
 }
 
 /// The voxels of a phantom without values below 0, as in MR, and the same negated.
@@ -37,11 +37,12 @@ fn traced(volume: &Volume, vessels: &[Vec<DVec3>]) -> Result<Vec<Traced>> {
 }
 
 fn airway_trees(phantom: &Phantom) -> Trees {
-    find_vessels(&phantom.volume().unwrap().with_polarity(Polarity::Dark), &REQUEST).unwrap()
+    let volume = phantom.volume().expect("a volume").with_polarity(Polarity::Dark);
+    find_vessels(&volume, &REQUEST).expect("airways")
 }
 
 fn called<'a>(phantom: &'a Phantom, name: &str) -> &'a Vessel {
-    let number = phantom.vessel_names.iter().position(|other| other == name).unwrap();
+    let number = phantom.vessel_names.iter().position(|other| other == name).expect("a name");
     &phantom.tree.vessels()[number]
 }
 
