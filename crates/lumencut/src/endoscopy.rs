@@ -123,8 +123,8 @@ impl Inside {
             let turn = before.axes[2].angle_between(next.axes[2]);
             let lasts = ((next.at - before.at).abs() / speed).max(turn / TURN_PER_S);
             // Within a step the eye moves evenly.
-            while places.len() as f64 / fps <= time + lasts {
-                let share = (places.len() as f64 / fps - time) / lasts;
+            while places.len() as f64 / fps <= time + lasts + 1e-9 {
+                let share = ((places.len() as f64 / fps - time) / lasts).min(1.0);
                 places.push(before.at + (next.at - before.at) * share);
             }
             time += lasts;
