@@ -54,7 +54,7 @@ fn rays(eye: DVec3, size: [usize; 2]) -> Rays {
         let flat = (1.0 - z * z).sqrt();
         Vec3::new(flat * cosine, flat * sine, z)
     };
-    let span = |n: usize| [1.5, if n % 7 == 0 { 9.0 } else { 150.0 }];
+    let span = |n: usize| [1.5, if n.is_multiple_of(7) { 9.0 } else { 150.0 }];
     Rays::new(size, eye, (0..count).map(direction).collect(), (0..count).map(span).collect()).unwrap()
 }
 

@@ -64,6 +64,7 @@ fn sample() -> SessionFile {
         view: Some(view),
         one_millimetre_assumed: false,
         bone_hidden: false,
+        dark: true,
         compared: None,
     };
     SessionFile { lines: vec![line], session }
