@@ -26,11 +26,11 @@ fn volume(values: &[f32]) -> Volume<'_> {
 fn inside(aside: f64) -> Inside {
     let line =
         Vessel::new(vec![DVec3::new(aside, 0.0, 40.0), DVec3::new(aside, 0.0, 0.0)], None).expect("a vessel");
-    of(line, 4.0)
+    of(&line, 4.0)
 }
 
-fn of(line: Vessel, radius: f64) -> Inside {
-    let path = Arc::new(CenterlinePath::new(&line, 0.0).expect("a path"));
+fn of(line: &Vessel, radius: f64) -> Inside {
+    let path = Arc::new(CenterlinePath::new(line, 0.0).expect("a path"));
     let view = View { up: DVec3::Z, angle: 0.0, normal: None };
     let straightened = Straightened::new(Arc::clone(&path), &view).expect("a space");
     let wall = Wall::new(vec![0.0, 40.0], vec![radius; 4], vec![false; 4]).expect("a wall");
@@ -112,7 +112,7 @@ fn a_flight_keeps_its_speed_and_slows_down_in_bends() {
     // A half circle of 10 mm radius takes at least 3 s.
     let turns = (0..=180).map(|n| f64::from(n).to_radians());
     let points = turns.map(|t| DVec3::new(t.cos(), 0.0, t.sin()) * 10.0).collect();
-    let bend = of(Vessel::new(points, None).expect("a vessel"), 1.0);
+    let bend = of(&Vessel::new(points, None).expect("a vessel"), 1.0);
     let places = bend.flight([0.0, bend.length()], 100.0, 20.0).expect("a flight");
     assert!((50..=66).contains(&places.len()), "{} frames", places.len());
 }
