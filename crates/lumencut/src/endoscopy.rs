@@ -100,7 +100,7 @@ impl Inside {
     }
 
     /// The places (mm) of the eye in the frames of a flight between two places, at most `speed` mm/s fast; the eye looks ahead,
-    /// and slows down where it would turn by more than [`TURN_PER_S`]. Fails with [`lumencut_core::error::ErrorKind::Camera`] for
+    /// and slows down where it would turn by more than `TURN_PER_S`. Fails with [`lumencut_core::error::ErrorKind::Camera`] for
     /// a place beyond the vessel, no way between the places, or too many frames.
     pub fn flight(&self, [from, to]: [f64; 2], speed: f64, fps: f64) -> Result<Vec<f64>> {
         let way = to - from;

@@ -144,6 +144,6 @@ def _made(name: str, value: Any) -> Any:
     if setting is None or not isinstance(value, list):
         return value
     if setting.kind == "transfer":
-        return TransferFunction(value)
+        return TransferFunction(tuple(value))
     made = {"window": Window, "slab": Slab, "focus": Focus}.get(setting.kind)
     return tuple(value) if made is None else made(*value)
