@@ -16,7 +16,7 @@ from typing import Any
 from dicom_series import Case
 from lumencut import FormatError, read_volume
 from lumencut._lumencut import judge_dicom
-from lumencut.dicom.reading import Wanted
+from lumencut.dicom.reading import DicomChoice
 from lumencut.dicom.reading.files import read_files
 from lumencut.dicom.reading.judging import headers_document, wanted_document
 
@@ -26,7 +26,7 @@ def document(case: Case, path: Path) -> dict[str, Any]:
     found: dict[str, Any] = {"name": case.name}
     try:
         headers = headers_document(read_files(path, []))
-        wanted = wanted_document(Wanted(series=case.series, resample_slices=case.resample_slices))
+        wanted = wanted_document(DicomChoice(series=case.series, resample_slices=case.resample_slices))
         found |= {"headers": json.loads(headers), "wanted": json.loads(wanted)}
         found |= {"answer": json.loads(judge_dicom(headers, wanted))}
         volume = read_volume(path, series=case.series, resample_slices=case.resample_slices)

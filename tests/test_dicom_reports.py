@@ -30,7 +30,7 @@ from lumencut.dicom.writing import codes
 from test_cli_dicom import line as line
 from test_cli_dicom import run
 
-AT, REFERENCE = 12.0, 24.0
+AT, REFERENCE = 8.0, 30.0
 
 
 @cache
@@ -155,7 +155,7 @@ def test_the_tree_of_a_stenosis(tmp_path):
 
 def test_what_a_reader_made_by_hand_is_called_so(tmp_path):
     record = json.loads(_lumencut.profile_record(profile()._core))
-    at, elsewhere = profile()._core.nearest(AT), profile()._core.nearest(REFERENCE + 6)
+    at, elsewhere = profile()._core.nearest(AT), profile()._core.nearest(REFERENCE - 6)
     record["flags"][at] |= int(Flag.BY_HAND)
     record["flags"][elsewhere] |= int(Flag.LINE_BY_HAND)
     drawn = Profile.__new__(Profile)

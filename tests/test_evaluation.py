@@ -352,7 +352,7 @@ def test_the_command_says_what_is_wrong_before_it_works(words, message):
 
 
 def test_ctrl_c_leaves_nothing_behind(scene, tmp_path, monkeypatch):
-    def interrupted(*_):
+    def interrupted(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Renderer, "cut_surface", interrupted)

@@ -82,7 +82,7 @@ def test_every_object_is_of_the_study_and_without_error(tmp_path):
         assert "(research, not for diagnosis)" in data.SeriesDescription
 
 
-@pytest.mark.parametrize("marked", [None, Marked(12.0), Marked(12.0, (24.0,), "area"), Marked()])
+@pytest.mark.parametrize("marked", [None, Marked(12.0), Marked(8.0, (30.0,), "area"), Marked()])
 def test_the_structured_report_is_that_of_python(tmp_path, marked):
     asked = request() if marked is None else request(marked=marked)
     found = pydicom.dcmread(made(asked, tmp_path)["report.dcm"])
@@ -324,7 +324,7 @@ def test_a_place_beyond_the_vessel_is_not_graded(tmp_path):
     assert [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in found] == ["Centerline"]
 
 
-@pytest.mark.parametrize("marked", [Marked(12.0, (24.0,)), Marked(12.0, method="ecst", original=9.0)])
+@pytest.mark.parametrize("marked", [Marked(8.0, (30.0,)), Marked(8.0, method="ecst", original=9.0)])
 def test_a_finding_is_graded_as_python_grades_it(marked):
     one = measured(marked)
     finding = json.loads(json.dumps(finding_part(one, marked)))

@@ -62,7 +62,8 @@ def test_the_source_of_the_wall_is_told(coronary):
     told = measure(Volume(shares.array.clip(0), world_from_index=volume.world_from_index), vessel, fwhm=0.9)
     assert told.wall_source == "not separated: nothing says that the values are HU"
     dark = Volume(300 - volume.array, world_from_index=volume.world_from_index)
-    told = measure(dark, vessel, fwhm=0.9, wall=(100, 30))
+    assert measure(dark, vessel, fwhm=0.9, wall=(100, 30)).wall_source == "100 ± 30, given"
+    told = measure(dark, vessel, fwhm=0.9)
     assert told.wall_source == "not separated: the lumen is dark"
     assert np.isnan(told.wall).all()
 

@@ -56,6 +56,8 @@ pub const SHADERS: &[Shader] = shaders![
     "math/walls",
     "math/whole_curve",
     "math/window",
+    #[cfg(not(target_arch = "wasm32"))]
+    "reformations/endoscopy/wall",
     "stages/body",
     "stages/composite",
     "stages/context",
@@ -70,6 +72,4 @@ pub const SHADERS: &[Shader] = shaders![
     "stages/silhouette",
     "stages/steady",
     "stages/surface",
-    #[cfg(not(target_arch = "wasm32"))]
-    "stages/wall",
 ];

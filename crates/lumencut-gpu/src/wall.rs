@@ -5,7 +5,7 @@ use lumencut_core::error::Result;
 use lumencut_core::geometry::Rays;
 use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::tube::Tube;
-use lumencut_core::stages::wall::WallParameters;
+use lumencut_core::reformations::endoscopy::wall::WallParameters;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 use wgpu::BindingResource;
@@ -16,7 +16,7 @@ use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::{DeviceVolume, GridParameters};
 
-/// Has the layout of `WallRay` in `stages/wall.wgsl`.
+/// Has the layout of `WallRay` in `reformations/endoscopy/wall.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct WallRay {
@@ -28,7 +28,7 @@ pub(crate) struct WallRay {
     pub padding_2: f32,
 }
 
-/// As `stages::wall::wall` of the core, with samples `step` mm apart in `volume` beyond openings.
+/// As `reformations::endoscopy::wall::wall` of the core, with samples `step` mm apart in `volume` beyond openings.
 pub async fn wall(
     device: &Device,
     volume: &Volume<'_>,
@@ -56,7 +56,7 @@ pub async fn wall(
         image.as_entire_binding(),
     ];
     let constants = [("FLOAT_VOXELS", f64::from(u8::from(on_device.is_float())))];
-    let stage = Stage::new(device, "stages/wall", &constants).with_first_binding(1);
+    let stage = Stage::new(device, "reformations/endoscopy/wall", &constants).with_first_binding(1);
     let mut recording = Recording::new(device);
     recording.run(&stage, &resources, groups(rays.size(), [8, 8]));
     recording.read(&image, image.size());

@@ -119,7 +119,8 @@ fn every_stage_has_an_entry_point_of_its_name_and_no_other_room_has_any() {
     for shader in SHADERS {
         let (module, _) = parse(shader.room);
         let entries: Vec<_> = module.entry_points.iter().map(|entry| entry.name.as_str()).collect();
-        let name = shader.room.strip_prefix("stages/");
+        let is_stage = shader.room.starts_with("stages/") || shader.room.starts_with("reformations/");
+        let name = shader.room.rsplit('/').next().filter(|_| is_stage);
         match name.or(Some("projection").filter(|_| shader.room == PROJECTION)) {
             Some(name) => assert!(entries.contains(&name), "{}: {entries:?}", shader.room),
             None => assert!(entries.is_empty(), "{}: {entries:?}", shader.room),
@@ -144,10 +145,10 @@ fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
             assert!(bound.iter().all(|(place, _)| place.group == 0), "{name}");
             let mut bindings: Vec<_> = bound.iter().map(|(place, _)| place.binding).collect();
             bindings.sort_unstable();
-            // These entry points only arrange points, and do not use the first bindings.
+            // These entry points need no view, and do not use the first bindings.
             let first = match entry.name.as_str() {
                 "bundle" => 2,
-                "enclose" => 1,
+                "enclose" | "wall" => 1,
                 _ => 0,
             };
             assert!(

@@ -58,7 +58,7 @@ def _is_pyramid(given: str | os.PathLike[str], chosen: VolumeChoice) -> bool:
     is_pyramid = is_served(given) or (not is_address(given) and is_ome_zarr(checked_path(given, KNOWN)))
     needless = chosen.dicom if is_pyramid else chosen.zarr
     for field in fields(needless):
-        if getattr(needless, field.name) != field.default:
+        if getattr(needless, field.name) is not field.default:
             kind = "DICOM or a segmentation" if is_pyramid else "OME-Zarr"
             raise FormatError(
                 str(given), f"{field.name} for a file of another kind", kind, f"leave {field.name} out"

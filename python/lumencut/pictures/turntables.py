@@ -68,17 +68,18 @@ def turntable(
     """
     from lumencut.pictures.renderer import check_renderer
     from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
 
     check_renderer(renderer)
     if not isinstance(camera, (Camera, NoneType)):
         raise CameraError("camera", type(camera).__name__, "a Camera or None")
     if camera is None:
         camera = fitted_turn(Camera.anterior(renderer.scene), renderer.scene, degrees, axis)
-    if settings is None or settings.turning_limit is None or renderer.tree is None:
+    if isinstance(settings, Settings) and settings.turning_limit is not None and renderer.tree is not None:
+        yield from _held(renderer, list(_views(camera, frames, degrees, axis)), settings, degrees)
+    else:
         for view in _views(camera, frames, degrees, axis):
             yield renderer.render(view, settings)
-    else:
-        yield from _held(renderer, list(_views(camera, frames, degrees, axis)), settings, degrees)
 
 
 def _held(renderer: Renderer, views: list[Camera], settings: Settings, degrees: float) -> Iterator[Frame]:

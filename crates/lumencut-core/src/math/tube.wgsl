@@ -16,7 +16,7 @@ struct TubeRow {
     across: vec4f,
 }
 
-// Has the layout of `WallParameters` in `stages/wall.rs`.
+// Has the layout of `WallParameters` in `reformations/endoscopy/wall.rs`.
 struct WallParameters {
     // The eye (mm from the origin of the tube), and the distance of rows (mm).
     eye: vec4f,

@@ -2,6 +2,7 @@
 
 mod lens;
 mod tube;
+pub mod wall;
 
 use std::sync::Arc;
 
@@ -9,13 +10,13 @@ use glam::{DVec2, DVec3, Vec3};
 
 pub use lens::{Eye, Lens, LensImage};
 pub use tube::{Bounds, tube};
+use wall::{Beyond, wall};
 
 use super::layout::{Layout, by_rows, curved_by_rows};
 use crate::error::Result;
 use crate::geometry::{Curved, Rays};
 use crate::math::tube::{Tube, TubePlace};
 use crate::stages::Work;
-use crate::stages::wall::{Beyond, wall};
 use crate::stop::{Stop, go_on};
 
 /// Rays start at this share of the radius, so that noise at the eye hides nothing.

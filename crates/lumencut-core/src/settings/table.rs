@@ -135,10 +135,10 @@ settings! {
         /// else needs profiles. Labels of the picture explain the colours.
         rim: Option<RimValue> = None, open("no rim");
 
-        /// Value of the first colour of the `rim` (in its unit: mm, or % for `narrowing`).
+        /// Value of the first colour of the `rim` (mm, or % for `narrowing`).
         rim_low: Option<f64> = None, range(-1e4, 1e4, "mm or %"), open("from the values");
 
-        /// Value of the last colour of the `rim` (in its unit: mm, or % for `narrowing`).
+        /// Value of the last colour of the `rim` (mm, or % for `narrowing`).
         rim_high: Option<f64> = None, range(-1e4, 1e4, "mm or %"), open("from the values");
 
         /// Vessel walls over the picture (name): `hidden`, or `wireframe` for rings across and lines along the vessels.

@@ -35,8 +35,6 @@ pub mod steady;
 pub mod surface;
 mod table;
 #[doc(hidden)]
-pub mod wall;
-
 pub use table::{Image, ImageSet, Stage};
 
 use crate::error::Result;

@@ -291,7 +291,7 @@ fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
     let both = BothSides::new(device, y_junction().unwrap());
     let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 0.8), both.scene());
     let mut gpu = GpuRenderer::new(Arc::clone(device));
-    for settings in [everything(), Settings::default()] {
+    for settings in [Settings { turning_limit: None, ..everything() }, Settings::default()] {
         let request = Request::new(&camera, &settings);
         let cut = Scene { volume: None, ..scene.clone() };
         // Without a volume, a frame has depth jumps and focus shares only if they are requested.

@@ -7,6 +7,7 @@ use bytemuck::Zeroable;
 use lumencut_core::math::context_parameters::{ContextParameters, RiseParameters};
 use lumencut_core::math::levels::{CutSurfaceParameters, LevelLayout};
 use lumencut_core::math::tube::TubeRow;
+use lumencut_core::reformations::endoscopy::wall::WallParameters;
 use lumencut_core::shaders::SHADERS;
 use lumencut_core::stages::body::BodyParameters;
 use lumencut_core::stages::composite::CompositeParameters;
@@ -19,7 +20,6 @@ use lumencut_core::stages::rim::{RimParameters, RimStrip};
 use lumencut_core::stages::silhouette::SilhouetteParameters;
 use lumencut_core::stages::steady::SteadyParameters;
 use lumencut_core::stages::surface::SurfaceParameters;
-use lumencut_core::stages::wall::WallParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 
 use crate::levels::{Along, NodeBox, Point, Projected, Slot, Span};
@@ -54,7 +54,10 @@ fn hosts() -> Vec<(&'static str, &'static str, Layout)> {
     vec![
         host!("math/tube", TubeRow { middle, tangent, across }),
         host!("math/tube", WallParameters { eye, origin, x, y, z, size, rows, near }),
-        host!("stages/wall", WallRay { direction, start, end, padding_0, padding_1, padding_2 }),
+        host!(
+            "reformations/endoscopy/wall",
+            WallRay { direction, start, end, padding_0, padding_1, padding_2 }
+        ),
         host!("math/hierarchy", NodeBox { low, high, z, radius, tiers, padding }),
         host!(
             "math/levels",

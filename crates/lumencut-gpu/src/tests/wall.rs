@@ -12,9 +12,9 @@ use lumencut_core::math::sampling::Grid;
 use lumencut_core::math::tube::Tube;
 use lumencut_core::reformations::Wall;
 use lumencut_core::reformations::cpr::{Straightened, View};
+use lumencut_core::reformations::endoscopy::wall::{Beyond, wall};
 use lumencut_core::reformations::endoscopy::{Bounds, tube};
 use lumencut_core::stages::Work;
-use lumencut_core::stages::wall::{Beyond, wall};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 

@@ -64,7 +64,7 @@ fn sample() -> SessionFile {
         view: Some(view),
         one_millimetre_assumed: false,
         bone_hidden: false,
-        dark: true,
+        dark: false,
         compared: None,
     };
     SessionFile { lines: vec![line], session }
@@ -108,6 +108,17 @@ fn hidden_bone_comes_back_and_is_of_format_2() {
     assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
     let early = text.replace("\"format\":2", "\"format\":1");
     assert!(refused(&early).contains("found hidden bone in version 1; expected version 2"));
+}
+
+#[test]
+fn dark_lumens_come_back_and_are_of_format_2() {
+    let mut file = sample();
+    file.session.dark = true;
+    let text = written(&file);
+    file.session.format = 2;
+    assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
+    let early = text.replace("\"format\":2", "\"format\":1");
+    assert!(refused(&early).contains("found dark lumens in version 1; expected version 2"));
 }
 
 #[test]

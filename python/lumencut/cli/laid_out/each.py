@@ -46,7 +46,7 @@ def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings
         found = f"a picture of lumencut {recipe.command or 'no command'}"
         raise FormatError(str(path), found, f"one of lumencut {command}", "use the command that made it")
     own = {name: value for name, value in recipe.parameters.items() if name in chosen and value is not None}
-    angles = {name: number(FormatError, f"{name} in {path}", own[name]) for name in _ANGLES if name in own}
+    angles = {name: number(FormatError, f"{name} in {path}", own[name]) for name in _angles_of(own)}
     degrees = {name: math.degrees(angle) for name, angle in angles.items()}
     return {**chosen, **own, **degrees, **typed(chosen)}, settings_from(chosen, settings)
 
@@ -81,8 +81,13 @@ def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: Vessel
     requests = _requests()
     given = {**chosen, "settings": settings, "slab": None, "tree": tree}
     own = {field.name: given[field.name] for field in fields(requests[command]) if field.name in given}
-    own |= {name: math.radians(own[name]) for name in _ANGLES if own.get(name) is not None}
+    own |= {name: math.radians(own[name]) for name in _angles_of(own) if own[name] is not None}
     return requests[command](**own)
+
+
+def _angles_of(own: dict[str, Any]) -> list[str]:
+    """Return the parameters that are angles; the roll of a CPR may be a word."""
+    return [name for name in _ANGLES if name in own and not (name == "roll" and isinstance(own[name], str))]
 
 
 def _requests() -> dict[str, Any]:

@@ -6,16 +6,17 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::Work;
 use crate::error::Result;
 use crate::geometry::Rays;
 use crate::math::tube::{Met, Tube};
+use crate::stages::Work;
 use crate::stop::filled;
 use crate::volume::Volume;
 
 /// The eye and the grid of the volume in the space of a tube. Has the layout of `WallParameters` in `math/tube.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
+#[allow(missing_docs)]
 pub struct WallParameters {
     pub eye: [f32; 4],
     pub origin: [f32; 4],
