@@ -105,11 +105,10 @@ class Settings(CheckedSettings):
         (mm). Lumen, wall, calcium and metal keep their grey. Diameters come from profiles, otherwise from
         radii; all else needs profiles. Labels of the picture explain the colours. If not given: no rim.
     rim_low : float, -10000 to 10000, optional
-        Value of the first colour of the ``rim`` (in its unit: mm, or % for ``narrowing``). If not given:
-        from the values.
+        Value of the first colour of the ``rim`` (mm, or % for ``narrowing``). If not given: from the
+        values.
     rim_high : float, -10000 to 10000, optional
-        Value of the last colour of the ``rim`` (in its unit: mm, or % for ``narrowing``). If not given:
-        from the values.
+        Value of the last colour of the ``rim`` (mm, or % for ``narrowing``). If not given: from the values.
     tree : {"hidden", "wireframe"}, default "hidden"
         Vessel walls over the picture (name): ``hidden``, or ``wireframe`` for rings across and lines along
         the vessels. Wires show the radii of the centerlines, ``unknown_radius`` where there is none; only
