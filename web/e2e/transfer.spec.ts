@@ -16,7 +16,7 @@ test('points of a transfer function are dragged over the histogram, and by keys'
   };
   const point = (n: number) => viewer.page.getByRole('slider', { name: new RegExp(`^Point ${n} of`) });
   await viewer.research(async () => {
-    await changes(() => viewer.field('Context').selectOption('dvr'));
+    await viewer.field('Context').selectOption('dvr');
     await viewer.field('context transfer').selectOption('points');
     await expect(point(5)).toBeVisible();
     await viewer.rest();

@@ -20,8 +20,7 @@ export async function traceDark(dark: boolean): Promise<boolean> {
         before = { settings: store.settings.peek(), window: store.window_.peek() };
         chooseRegion(REGION);
       } else if (before) {
-        store.settings.value = before.settings;
-        store.window_.value = before.window;
+        store.putBackSettings(before.settings, before.window);
       }
       showProjection(dark);
     });

@@ -172,6 +172,11 @@ export function chooseMethod(name: Method): void {
   method.value = name;
 }
 
+export function putBackSettings(before: Settings, window: Window): void {
+  settings.value = before;
+  window_.value = window;
+}
+
 export function resetSettings(): void {
   settings.value = firstSettings.value;
 }
