@@ -27,7 +27,7 @@ pytestmark = [
     pytest.mark.usefixtures("nursery"),
 ]
 
-LIMITS = ("--memory", "2GB", "--time-limit", "10s", "--jobs", "2", "--threads", "1")
+LIMITS = ("--memory", "2GB", "--time-limit", "20s", "--jobs", "2", "--threads", "1")
 
 
 @pytest.fixture(scope="module")

@@ -79,7 +79,7 @@ def opening(ground, **places):
 
 def ends(process, number=signal.SIGTERM):
     process.send_signal(number)
-    return process.wait(20)
+    return process.wait(60)
 
 
 def wait_for(is_so):
@@ -115,7 +115,7 @@ def test_only_its_owner_reads_the_file(ground, where):
     places = {"XDG_RUNTIME_DIR": str(private(ground / "run"))} if where == "runtime folder" else {}
     folder = ground / ("run/lumencut" if places else "lumencut-viewer")
     with opening(ground, **places) as (process, address, _):
-        wait_for(lambda: held_by(ground))
+        wait_for(lambda: any(file.stat().st_size for file in held_by(ground)))
         (file,) = held_by(ground)
         assert file.parent == folder
         assert stat.S_IMODE(file.stat().st_mode) == 0o600

@@ -35,10 +35,13 @@ async function automatic(): Promise<void> {
     await edit().click();
   }
   const back = tube.button('Automatic');
-  if ((await back.count()) > 0) {
-    await back.click();
-  }
-  await expect(numbers()).not.toContainText('by hand');
+  // The button appears once the edited section is drawn.
+  await expect(async () => {
+    if ((await back.count()) > 0) {
+      await back.click();
+    }
+    await expect(numbers()).not.toContainText('by hand', { timeout: 1000 });
+  }).toPass();
 }
 
 test('a drag at a grip pulls the contour, the numbers follow, and undo brings the automatic one back', async () => {
