@@ -54,6 +54,7 @@ def test_the_command_flies_to_a_vessel(scene: phantom.Phantom, tmp_path) -> None
         (["nothing"], "no vessel of this name"),
         (["1", "--degrees", "90"], "--degrees does nothing with --fly-to"),
         (["1", "--about", "1@5"], "--about does nothing with --fly-to"),
+        (["1", "--turning-limit", "4"], "leave out --turning-limit"),
         (["1", "--frames", "1"], "at least 2 frames"),
     ):
         result = CliRunner().invoke(main, [*command, *options, *output])

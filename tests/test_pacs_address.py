@@ -54,6 +54,11 @@ def test_addresses_that_are_none_are_refused(given, words):
     assert "pw1" not in str(caught.value)
 
 
+def test_options_of_other_files_are_refused_without_a_request():
+    with pytest.raises(FormatError, match=r"memory for a file of another kind.*leave memory out"):
+        read_volume("dicomweb:https://pacs.invalid/studies/1.2", memory=10**9)
+
+
 def test_a_path_keeps_the_address():
     given = "dicomweb:https://pacs.example/dicom-web/studies/1.2/series/3.4"
     assert parsed_address(Path(given)) == parsed_address(given)

@@ -180,8 +180,9 @@ def _check_flight(chosen: dict[str, Any], frames: int) -> None:
         return
     for name, idle in (("about", None), ("axis", None), ("degrees", 360.0), ("turning_limit", None)):
         if chosen[name] != idle:
-            found = f"--{name.replace('_', '-')} does nothing with --fly-to"
-            raise click.UsageError(f"{found}, which sets the movement; leave out --{name}")
+            option = f"--{name.replace('_', '-')}"
+            found = f"{option} does nothing with --fly-to"
+            raise click.UsageError(f"{found}, which sets the movement; leave out {option}")
     if frames < 2:
         raise click.UsageError("a flight needs at least 2 frames; give --frames 2 or more")
 

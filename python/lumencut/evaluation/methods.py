@@ -14,7 +14,7 @@ from lumencut.base.checks import choice
 from lumencut.errors import SettingsError
 from lumencut.evaluation.own_pictures import untangled_picture
 from lumencut.evaluation.shown import TURN, Shown, slid
-from lumencut.pictures.frame import Frame
+from lumencut.pictures.frame import Frame, depth_before
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.reformation import Reformation
 from lumencut.reformations.tree_reformations import MPCPR, cr_method
@@ -23,7 +23,7 @@ from lumencut.scene.checked_settings import checked
 from lumencut.scene.settings import Settings
 
 #: Views of one degree each that a held view follows.
-RUN_UP = 30
+_VIEWS_BEFORE = 30
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def _before(renderer: Renderer, camera: Camera, settings: Settings) -> Frame | N
     """Return the view one degree before in a turn, if the settings hold on to it."""
     before = None
     if settings.turning_limit is not None:
-        for n in range(RUN_UP, 0, -1):
+        for n in range(_VIEWS_BEFORE, 0, -1):
             turned = camera.rotated(-n * TURN, "up")
             before = renderer.cut_surface(turned, settings, images=["depth"], before=before)
     return before
@@ -92,8 +92,7 @@ def _picture(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
 def _details(
     renderer: Renderer, camera: Camera, settings: Settings, before: Frame | None = None
 ) -> dict[str, npt.NDArray[np.float32]]:
-    last = None if before is None else (before.camera, before.depth)
-    return renderer._core.details(camera, checked(renderer._choosing(settings)), last)
+    return renderer._core.details(camera, checked(renderer._choosing(settings)), depth_before(before))
 
 
 def _reformation(method: tuple[Any, ...], **more: Any) -> Method:

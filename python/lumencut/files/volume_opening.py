@@ -68,12 +68,12 @@ def _is_pyramid(given: str | os.PathLike[str], chosen: VolumeChoice) -> bool:
 
 def open_chosen(given: str | os.PathLike[str], chosen: VolumeChoice, progress: Progress) -> VolumeFile:
     """Choose the reader by content, or by name if the content is ambiguous."""
-    if is_address(given):
-        return _fetched(given, chosen.dicom, progress)
     if _is_pyramid(given, chosen):
         from lumencut.files.ome_zarr.opening import pyramid_file
 
         return pyramid_file(given, chosen.zarr).checked()
+    if is_address(given):
+        return _fetched(given, chosen.dicom, progress)
     path = existing(given)
     notes: list[str] = []
     with heeding(progress) as counted, refusing(path, "volume", notes):

@@ -25,7 +25,7 @@ Axis: TypeAlias = Literal["superior", "up", "right", "direction"] | npt.ArrayLik
 
 MOST_FRAMES = 1_000_000
 #: Degrees before a complete turn that its first frame follows.
-RUN_UP = 60.0
+_RUN_UP = 60.0
 
 
 def turntable(
@@ -37,6 +37,8 @@ def turntable(
     axis: Axis = "superior",
 ) -> Iterator[Frame]:
     """Render a turn, one frame at a time.
+
+    With the setting ``turning_limit``, each frame follows the one before; a complete turn begins as it ends.
 
     Parameters
     ----------
@@ -53,8 +55,6 @@ def turntable(
         Total rotation of the viewer (degrees); from anterior about superior to the patient's left.
     axis : {"superior", "up", "right", "direction"} or array_like of shape (3,), default "superior"
         The axis of the patient or of the first view, or a vector (LPS).
-
-    With the setting ``turning_limit``, each frame follows the one before; a complete turn begins as it ends.
 
     Yields
     ------
@@ -86,7 +86,7 @@ def _held(renderer: Renderer, views: list[Camera], settings: Settings, degrees: 
     """Render views that each follow the one before."""
     before = None
     if degrees != 0.0 and degrees % 360.0 == 0.0:
-        for view in views[-math.ceil(len(views) * RUN_UP / abs(degrees)) :]:
+        for view in views[-math.ceil(len(views) * _RUN_UP / abs(degrees)) :]:
             before = renderer.cut_surface(view, settings, images=["depth"], before=before)
     for view in views:
         before = renderer.render(view, settings, before=before)

@@ -84,23 +84,22 @@ def trace(
     VolumeError
         For anything that is not a volume.
     """
-    lists = _lists(points)
+    lists, scan = _lists(points), traced_volume(as_volume(volume), polarity)
+    for vessel, listed in enumerate(lists):
+        if len(listed) < 2:
+            found = counted(len(listed), "point")
+            raise TracingError(f"points of vessel {vessel}", found, "two or more, in order along the vessel")
 
     def route(part: Volume) -> VesselTree:
         tracer = Tracer(part, bridge=bridge, polarity=polarity)
         for vessel, listed in enumerate(lists):
-            if len(listed) < 2:
-                found = counted(len(listed), "point")
-                raise TracingError(
-                    f"points of vessel {vessel}", found, "two or more, in order along the vessel"
-                )
             for point in listed:
                 tracer.add(point, vessel)
         for stopper in _rows("stoppers", stoppers):
             tracer.stop(stopper, stopper_radius)
         return tracer.route(names=names, progress=progress)
 
-    return trace_by_levels(as_volume(volume), lists, route)
+    return trace_by_levels(scan, lists, route)
 
 
 class Tracer:
