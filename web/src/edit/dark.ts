@@ -1,6 +1,6 @@
 /** Changes between tracing of vessels and of dark lumens; context and window follow. */
 import { batch } from '@preact/signals';
-import type { Settings } from '../core/messages';
+import type { Histogram, Settings } from '../core/messages';
 import type { Window } from '../core/plain';
 import { chooseRegion } from '../state/looks';
 import * as store from '../state/store';
@@ -9,17 +9,25 @@ import { showProjection } from './mode';
 
 const REGION = 'airways';
 
-/** Settings and window before dark lumens were traced. */
-let before: { readonly settings: Settings; readonly window: Window } | null = null;
+/** Settings and window of a scan, which its histogram identifies, before dark lumens were traced. */
+let before: {
+  readonly histogram: Histogram | null;
+  readonly settings: Settings;
+  readonly window: Window;
+} | null = null;
 
 export async function traceDark(dark: boolean): Promise<boolean> {
   const isSet = await isDone(commit({ kind: 'set_dark', dark }));
   if (isSet) {
     batch(() => {
       if (dark) {
-        before = { settings: store.settings.peek(), window: store.window_.peek() };
+        before = {
+          histogram: store.histogram.peek(),
+          settings: store.settings.peek(),
+          window: store.window_.peek(),
+        };
         chooseRegion(REGION);
-      } else if (before) {
+      } else if (before?.histogram === store.histogram.peek()) {
         store.putBackSettings(before.settings, before.window);
       }
       showProjection(dark);
